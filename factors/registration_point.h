@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+namespace trajlo {
+
+/// A measured point with the plane of the map that it was associated with.
+struct RegistrationPoint {
+  Eigen::Vector3d p_body_m;      ///< The point in the body frame at its own time.
+  double alpha = 0.0;            ///< Its time within the segment: 0 begin, 1 end.
+  Eigen::Vector3d normal_world;  ///< Unit normal n of the plane nᵀx = d.
+  double offset_m = 0.0;         ///< d.
+  double weight = 1.0;           ///< Relative information of the association, in (0, 1].
+};
+
+}  // namespace trajlo

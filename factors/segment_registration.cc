@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: MIT
+#include "factors/segment_registration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "factors/square_root.h"
+#include "manifolds/se3_manifold.h"
+
+namespace trajlo {
+namespace {
+
+/// Four points at a time: GCC and Clang turn this into AVX, or into pairs of SSE2 where that is all.
+typedef double Lane4 __attribute__((vector_size(32)));
+
+template <typename T>
+constexpr int kLanes = 1;
+template <>
+constexpr int kLanes<Lane4> = 4;
+
+double& At(double& value, int) { return value; }
+double& At(Lane4& value, int lane) { return reinterpret_cast<double*>(&value)[lane]; }
+
+template <typename T>
+T Broadcast(double value) {
+  return value - T{};
+}
+
+template <typename T>
+struct Vector3 {
+  T x, y, z;
+  friend Vector3 operator+(const Vector3& a, const Vector3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend Vector3 operator*(const T& s, const Vector3& v) { return {s * v.x, s * v.y, s * v.z}; }
+};
+
+template <typename T>
+Vector3<T> Broadcast3(const Eigen::Vector3d& v) {
+  return {Broadcast<T>(v.x()), Broadcast<T>(v.y()), Broadcast<T>(v.z())};
+}
+
+template <typename T>
+Vector3<T> Cross(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <typename T>
+T Dot(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Rᵀ v.
+template <typename T>
+Vector3<T> RotateInverse(const Eigen::Matrix3d& R, const Vector3<T>& v) {
+  return {R(0, 0) * v.x + R(1, 0) * v.y + R(2, 0) * v.z,
+          R(0, 1) * v.x + R(1, 1) * v.y + R(2, 1) * v.z,
+          R(0, 2) * v.x + R(1, 2) * v.y + R(2, 2) * v.z};
+}
+
+/// Gathers one member of up to four points.
+template <typename T>
+struct GatheredPoints {
+  Vector3<T> p, n;
+  T alpha, offset, weight;
+
+  explicit GatheredPoints(const RegistrationPoint* const* points) {
+    for (int i = 0; i < kLanes<T>; ++i) {
+      const RegistrationPoint& point = *points[i];
+      At(p.x, i) = point.p_body_m.x();
+      At(p.y, i) = point.p_body_m.y();
+      At(p.z, i) = point.p_body_m.z();
+      At(n.x, i) = point.normal_world.x();
+      At(n.y, i) = point.normal_world.y();
+      At(n.z, i) = point.normal_world.z();
+      At(alpha, i) = point.alpha;
+      At(offset, i) = point.offset_m;
+      At(weight, i) = point.weight;
+    }
+  }
+};
+
+/// The sum of ½ rho(s_i). For Cauchy, a/2 log prod (1 + s_i/a): one logarithm for many points.
+class KernelCost {
+ public:
+  explicit KernelCost(const RobustKernel& kernel)
+      : kernel_(kernel), inverse_a_(1.0 / (kernel.width * kernel.width)) {}
+
+  void Add(double s) {
+    if (kernel_.kind != KernelKind::kCauchy) {
+      sum_ += kernel_.Rho(s);
+      return;
+    }
+    product_ *= 1.0 + s * inverse_a_;
+    if (product_ > 1e100) Flush();
+  }
+
+  double Total() {
+    if (kernel_.kind == KernelKind::kCauchy) Flush();
+    return 0.5 * sum_;
+  }
+
+ private:
+  void Flush() {
+    sum_ += std::log(product_) / inverse_a_;
+    product_ = 1.0;
+  }
+
+  RobustKernel kernel_;
+  double inverse_a_;
+  double product_ = 1.0;
+  double sum_ = 0.0;
+};
+
+}  // namespace
+
+SegmentLinearizer::Motion::Motion(const SE3& begin, const SE3& end)
+    : R_begin(begin.q.toRotationMatrix()), t_begin(begin.t), tau(Minus(end, begin)) {
+  rho = tau.head<3>();
+  theta = tau.tail<3>();
+  theta_x_rho = theta.cross(rho);
+  theta_x_theta_x_rho = theta.cross(theta_x_rho);
+  angle_squared = theta.squaredNorm();
+}
+
+SegmentLinearizer::SegmentLinearizer(const SE3& T_begin, const SE3& T_end,
+                                     const RegistrationNoise& noise,
+                                     const std::optional<SE3>& T_begin_linearized)
+    : current_(T_begin, T_end), noise_(noise) {
+  // The same state takes the same path, to the bit.
+  if (T_begin_linearized && (T_begin_linearized->q.coeffs() != T_begin.q.coeffs() ||
+                             T_begin_linearized->t != T_begin.t)) {
+    linearized_.emplace(*T_begin_linearized, T_end);
+  }
+}
+
+void SegmentLinearizer::Sum::Add(const Sum& other) {
+  H += other.H;
+  g += other.g;
+  cost += other.cost;
+}
+
+/// Per lane: the upper triangle of H by rows, and g.
+template <typename T>
+struct SegmentLinearizer::Lanes {
+  T H[78] = {};
+  T g[12] = {};
+  KernelCost cost;
+};
+
+namespace {
+
+/// Exp(alpha tau) p = p + alpha c1 theta x p + alpha² c2 theta x (theta x p)
+///                  + alpha rho + alpha² c2 theta x rho + alpha³ c3 theta x (theta x rho).
+template <typename T, typename MotionType>
+Vector3<T> MoveToBegin(const MotionType& m, const T& alpha, const StumpffSeries<T>& c,
+                       const Vector3<T>& p) {
+  const Vector3<T> theta = Broadcast3<T>(m.theta);
+  const Vector3<T> theta_x_p = Cross(theta, p);
+  const T k1 = alpha * c.c1;
+  const T k2 = alpha * alpha * c.c2;
+  const T k3 = alpha * alpha * alpha * c.c3;
+  return p + k1 * theta_x_p + k2 * (Cross(theta, theta_x_p) + Broadcast3<T>(m.theta_x_rho)) +
+         alpha * Broadcast3<T>(m.rho) + k3 * Broadcast3<T>(m.theta_x_theta_x_rho);
+}
+
+template <typename T>
+StumpffSeries<T> StumpffOf(const T& s) {
+  return StumpffSeries<T>(s);
+}
+template <>
+StumpffSeries<double> StumpffOf<double>(const double& s) {
+  return Stumpff(s);
+}
+
+}  // namespace
+
+template <typename T>
+T SegmentLinearizer::Residual(const RegistrationPoint* const* points) const {
+  const GatheredPoints<T> in(points);
+  const Motion& m = current_;
+  const StumpffSeries<T> c = StumpffOf<T>(in.alpha * in.alpha * m.angle_squared);
+  const Vector3<T> p0 = MoveToBegin(m, in.alpha, c, in.p);
+  const Vector3<T> n0 = RotateInverse(m.R_begin, in.n);
+  return Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(m.t_begin)) - in.offset);
+}
+
+template <typename T>
+void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* const* points,
+                                       Lanes<T>* sums) const {
+  const GatheredPoints<T> in(points);
+  const T alpha = in.alpha;
+  StumpffSeries<T> c = StumpffOf<T>(alpha * alpha * current_.angle_squared);
+  Vector3<T> p0 = MoveToBegin(current_, alpha, c, in.p);
+  Vector3<T> n0 = RotateInverse(current_.R_begin, in.n);
+  const T r = Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(current_.t_begin)) - in.offset);
+
+  const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
+  T s = in.weight * information * r * r;
+  T w;
+  for (int i = 0; i < kLanes<T>; ++i) {
+    sums->cost.Add(At(s, i));
+    At(w, i) = noise_.kernel.Weight(At(s, i));
+  }
+  w = w * in.weight * information;
+
+  const Motion& m = linearized_ ? *linearized_ : current_;
+  if (linearized_) {
+    c = StumpffOf<T>(alpha * alpha * m.angle_squared);
+    p0 = MoveToBegin(m, alpha, c, in.p);
+    n0 = RotateInverse(m.R_begin, in.n);
+  }
+  // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x theta].
+  const Vector3<T> j1 = n0;
+  const Vector3<T> j2 = Cross(p0, n0);
+  const Vector3<T> rho = Broadcast3<T>(m.rho);
+  const Vector3<T> theta = Broadcast3<T>(m.theta);
+  const se3::LeftJacobianCoefficients<T> a(c);
+  const T alpha2 = alpha * alpha;
+  const T b[4] = {a.a1 * alpha, a.a2 * alpha2, a.a3 * alpha2 * alpha, a.a4 * alpha2 * alpha2};
+  Vector3<T> v1 = b[3] * j1;
+  Vector3<T> v2 = b[3] * j2;
+  for (int k = 2; k >= -1; --k) {
+    const Vector3<T> ad1 = Cross(v1, theta);
+    const Vector3<T> ad2 = Cross(v1, rho) + Cross(v2, theta);
+    const T factor = k >= 0 ? b[k] : Broadcast<T>(1.0);
+    v1 = factor * j1 + ad1;
+    v2 = factor * j2 + ad2;
+  }
+  v1 = alpha * v1;
+  v2 = alpha * v2;
+
+  const T u[12] = {j1.x, j1.y, j1.z, j2.x, j2.y, j2.z, v1.x, v1.y, v1.z, v2.x, v2.y, v2.z};
+  int index = 0;
+  for (int row = 0; row < 12; ++row) {
+    const T wu = w * u[row];
+    sums->g[row] += wu * r;
+    for (int column = row; column < 12; ++column) sums->H[index++] += wu * u[column];
+  }
+}
+
+template <typename T>
+void SegmentLinearizer::RunLinearize(const RegistrationPoint* points, size_t count,
+                                     Sum* sum) const {
+  Lanes<T> lanes{{}, {}, KernelCost(noise_.kernel)};
+  const RegistrationPoint* gathered[4];
+  for (size_t i = 0; i + kLanes<T> <= count; i += kLanes<T>) {
+    for (int lane = 0; lane < kLanes<T>; ++lane) gathered[lane] = points + i + lane;
+    LinearizeLanes<T>(gathered, &lanes);
+  }
+  int index = 0;
+  for (int row = 0; row < 12; ++row) {
+    for (int lane = 0; lane < kLanes<T>; ++lane) sum->g[row] += At(lanes.g[row], lane);
+    for (int column = row; column < 12; ++column, ++index) {
+      for (int lane = 0; lane < kLanes<T>; ++lane) sum->H(row, column) += At(lanes.H[index], lane);
+    }
+  }
+  sum->cost += lanes.cost.Total();
+}
+
+SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* points,
+                                                    size_t count) const {
+  Sum sum;
+  // The series of the Stumpff functions, which the lanes use, hold for rotations below 1 rad.
+  const bool small = current_.angle_squared < 1.0 && (!linearized_ || linearized_->angle_squared < 1.0);
+  const size_t vectorised = small ? count / 4 * 4 : 0;
+  RunLinearize<Lane4>(points, vectorised, &sum);
+  RunLinearize<double>(points + vectorised, count - vectorised, &sum);
+  return sum;
+}
+
+double SegmentLinearizer::Cost(const RegistrationPoint* points, size_t count) const {
+  KernelCost cost(noise_.kernel);
+  const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
+  const size_t vectorised = current_.angle_squared < 1.0 ? count / 4 * 4 : 0;
+  const RegistrationPoint* gathered[4];
+  for (size_t i = 0; i < vectorised; i += 4) {
+    for (int lane = 0; lane < 4; ++lane) gathered[lane] = points + i + lane;
+    Lane4 r = Residual<Lane4>(gathered);
+    for (int lane = 0; lane < 4; ++lane) {
+      cost.Add(points[i + lane].weight * information * At(r, lane) * At(r, lane));
+    }
+  }
+  for (size_t i = vectorised; i < count; ++i) {
+    gathered[0] = points + i;
+    const double r = Residual<double>(gathered);
+    cost.Add(points[i].weight * information * r * r);
+  }
+  return cost.Total();
+}
+
+RegistrationNormalEquations SegmentLinearizer::Finish(const Sum& sum) const {
+  const Motion& m = linearized_ ? *linearized_ : current_;
+  // [dr/dT_begin dr/dT_end] = [jᵀ vᵀ] B.
+  Matrix12d B = Matrix12d::Identity();
+  B.bottomLeftCorner<6, 6>() = -se3::LeftJacobianInverse(m.tau);
+  B.bottomRightCorner<6, 6>() = se3::RightJacobianInverse(m.tau);
+  RegistrationNormalEquations result;
+  const Matrix12d H = sum.H.selfadjointView<Eigen::Upper>();
+  result.H.noalias() = B.transpose() * H * B;
+  result.g.noalias() = B.transpose() * sum.g;
+  result.cost = sum.cost;
+  return result;
+}
+
+RegistrationNormalEquations LinearizeSegment(const std::vector<RegistrationPoint>& points,
+                                             const SE3& T_begin, const SE3& T_end,
+                                             const RegistrationNoise& noise,
+                                             const std::optional<SE3>& T_begin_linearized) {
+  const SegmentLinearizer linearizer(T_begin, T_end, noise, T_begin_linearized);
+  return linearizer.Finish(linearizer.Linearize(points.data(), points.size()));
+}
+
+void WriteCondensed(const RegistrationNormalEquations& equations, const SE3& T_begin,
+                    const SE3& T_end, double* residuals, double** jacobians) {
+  Eigen::Map<Eigen::Matrix<double, 13, 1>> r(residuals);
+  if (jacobians == nullptr) {
+    r.setZero();
+    r[12] = std::sqrt(2.0 * equations.cost);
+    return;
+  }
+  const SquareRoot<12> root = MakeSquareRoot<12>(equations.H, equations.g);
+  r.head<12>() = root.s;
+  r[12] = std::sqrt(std::max(0.0, 2.0 * equations.cost - root.s.squaredNorm()));
+  const SE3* poses[2] = {&T_begin, &T_end};
+  for (int block = 0; block < 2; ++block) {
+    if (jacobians[block] == nullptr) continue;
+    Eigen::Map<Eigen::Matrix<double, 13, 7, Eigen::RowMajor>> J(jacobians[block]);
+    J.topRows<12>().noalias() = root.S.middleCols<6>(6 * block) * Se3MinusJacobian(*poses[block]);
+    J.row(12).setZero();
+  }
+}
+
+SegmentRegistrationCost::SegmentRegistrationCost(const std::vector<RegistrationPoint>* points,
+                                                 const RegistrationNoise& noise,
+                                                 const std::optional<SE3>& T_begin_linearized)
+    : points_(points), noise_(noise), T_begin_linearized_(T_begin_linearized) {}
+
+bool SegmentRegistrationCost::Evaluate(double const* const* parameters, double* residuals,
+                                       double** jacobians) const {
+  const SE3 T_begin = SE3::FromData(parameters[0]);
+  const SE3 T_end = SE3::FromData(parameters[1]);
+  const SegmentLinearizer linearizer(T_begin, T_end, noise_, T_begin_linearized_);
+  RegistrationNormalEquations equations;
+  if (jacobians == nullptr) {
+    equations.cost = linearizer.Cost(points_->data(), points_->size());
+  } else {
+    equations = linearizer.Finish(linearizer.Linearize(points_->data(), points_->size()));
+  }
+  WriteCondensed(equations, T_begin, T_end, residuals, jacobians);
+  return std::isfinite(equations.cost);
+}
+
+bool PreparedRegistrationCost::Evaluate(double const* const* parameters, double* residuals,
+                                        double** jacobians) const {
+  WriteCondensed(*equations_, SE3::FromData(parameters[0]), SE3::FromData(parameters[1]), residuals,
+                 jacobians);
+  return std::isfinite(equations_->cost);
+}
+
+}  // namespace trajlo

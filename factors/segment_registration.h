@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ceres/sized_cost_function.h>
+
+#include <optional>
+#include <vector>
+
+#include "factors/registration_point.h"
+#include "factors/robust_kernel.h"
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+using Matrix12d = Eigen::Matrix<double, 12, 12>;
+
+/// How a point-to-plane distance is weighed: s = weight (r / sigma)², cost ½ rho(s).
+struct RegistrationNoise {
+  double sigma_m = 0.1;
+  /// Its width is in units of sigma: a kernel of c metres has width c / sigma.
+  RobustKernel kernel{};
+};
+
+/// The registration cost of one segment around a state: E(xi) ~ cost + gᵀxi + ½ xiᵀH xi with
+/// xi = [xi_begin; xi_end] the right perturbations of the two control poses.
+struct RegistrationNormalEquations {
+  Matrix12d H = Matrix12d::Zero();
+  Vector12d g = Vector12d::Zero();
+  double cost = 0.0;  ///< ½ sum rho(s_i), exact.
+};
+
+/// Evaluates PointToPlaneCost for all points of a segment in one pass.
+///
+/// Instead of two 6x6 interpolation Jacobians a point, everything happens in the begin frame, where
+/// the derivatives c and d of the paper factor into a part of the point and a part of the segment:
+///
+///   p0 = Exp(alpha tau) p,  n0 = R_beginᵀ n,  j = [n0; p0 x n0],  v = alpha Jl(alpha tau)ᵀ j
+///   dr/dT_begin = jᵀ - vᵀ Jl⁻¹(tau),   dr/dT_end = vᵀ Jr⁻¹(tau)
+///
+/// (Adj(Exp(-alpha tau)) Jl(alpha tau) = Jr(alpha tau), and moving both poses by one world
+/// perturbation moves the interpolated pose by it). So H and g are summed over u = [j; v] and turned
+/// into pose coordinates once, exactly. `T_begin_linearized` asks for first-estimate Jacobians:
+/// residuals at the current poses, j, v and tau at the linearisation point.
+class SegmentLinearizer {
+ public:
+  SegmentLinearizer(const SE3& T_begin, const SE3& T_end, const RegistrationNoise& noise,
+                    const std::optional<SE3>& T_begin_linearized = std::nullopt);
+
+  /// Sums over [j; v]; sums of disjoint point ranges may be added, in a fixed order where results
+  /// must not depend on threads.
+  struct Sum {
+    Matrix12d H = Matrix12d::Zero();  ///< Upper triangle only.
+    Vector12d g = Vector12d::Zero();
+    double cost = 0.0;
+    void Add(const Sum& other);
+  };
+
+  Sum Linearize(const RegistrationPoint* points, size_t count) const;
+  double Cost(const RegistrationPoint* points, size_t count) const;
+
+  /// Turns a sum over [j; v] into the normal equations of [xi_begin; xi_end].
+  RegistrationNormalEquations Finish(const Sum& sum) const;
+
+ private:
+  struct Motion {
+    explicit Motion(const SE3& begin, const SE3& end);
+    Eigen::Matrix3d R_begin;
+    Eigen::Vector3d t_begin, rho, theta, theta_x_rho, theta_x_theta_x_rho;
+    double angle_squared;
+    Vector6d tau;
+  };
+  template <typename T>
+  struct Lanes;
+  template <typename T>
+  void LinearizeLanes(const RegistrationPoint* const* points, Lanes<T>* sums) const;
+  template <typename T>
+  T Residual(const RegistrationPoint* const* points) const;
+  template <typename T>
+  void RunLinearize(const RegistrationPoint* points, size_t count, Sum* sum) const;
+
+  Motion current_;
+  std::optional<Motion> linearized_;
+  RegistrationNoise noise_;
+};
+
+/// The normal equations of a whole segment, on the calling thread.
+RegistrationNormalEquations LinearizeSegment(
+    const std::vector<RegistrationPoint>& points, const SE3& T_begin, const SE3& T_end,
+    const RegistrationNoise& noise, const std::optional<SE3>& T_begin_linearized = std::nullopt);
+
+/// Condenses normal equations into 13 rows of Ceres with the same cost, gradient and Gauss-Newton
+/// Hessian: with H = SᵀS and Sᵀs = g,
+///
+///   residual = [s; sqrt(2 cost - |s|²)],  Jacobian = [S; 0].
+///
+/// The root is real because every kernel is concave: |s|² = gᵀH⁻¹g <= sum rho'(s_i) s_i <= 2 cost.
+/// Without Jacobians only the norm matters: residual = [0; sqrt(2 cost)].
+void WriteCondensed(const RegistrationNormalEquations& equations, const SE3& T_begin,
+                    const SE3& T_end, double* residuals, double** jacobians);
+
+/// The registration of a whole segment as one block of 13 residuals; equal to one PointToPlaneCost
+/// with a RobustKernelLoss for each point. Parameter blocks: T_begin, T_end. The points are read at
+/// every evaluation, so associations may change between solves.
+class SegmentRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> {
+ public:
+  /// `points` must outlive the factor.
+  SegmentRegistrationCost(const std::vector<RegistrationPoint>* points,
+                          const RegistrationNoise& noise,
+                          const std::optional<SE3>& T_begin_linearized = std::nullopt);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  const std::vector<RegistrationPoint>* points_;
+  RegistrationNoise noise_;
+  std::optional<SE3> T_begin_linearized_;
+};
+
+/// The same block where a ceres::EvaluationCallback has already computed `equations` for the state
+/// that is being evaluated (for all segments of a window in parallel).
+class PreparedRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> {
+ public:
+  /// `equations` must outlive the factor.
+  explicit PreparedRegistrationCost(const RegistrationNormalEquations* equations)
+      : equations_(equations) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  const RegistrationNormalEquations* equations_;
+};
+
+}  // namespace trajlo

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <limits>
+
+namespace trajlo {
+
+/// A quadratic ½ xᵀH x + gᵀx written as ½ |S x + s|² - ½ |s|²: SᵀS = H and Sᵀs = g.
+template <int N>
+struct SquareRoot {
+  Eigen::Matrix<double, N, N> S;
+  Eigen::Matrix<double, N, 1> s;
+};
+
+/// The square root of a positive semi-definite H by pivoted LDLᵀ: PHPᵀ = LDLᵀ, S = D^½ Lᵀ P and
+/// s = D^-½ L⁻¹ P g. Directions whose pivot is below 1e-14 of the largest one carry no information:
+/// their rows are zero (g has no part there when it comes from the same residuals as H).
+template <int N>
+SquareRoot<N> MakeSquareRoot(const Eigen::Matrix<double, N, N>& H,
+                             const Eigen::Matrix<double, N, 1>& g) {
+  const Eigen::LDLT<Eigen::Matrix<double, N, N>> ldlt(H);
+  const Eigen::Matrix<double, N, 1> D = ldlt.vectorD();
+  const double smallest = 1e-14 * D.cwiseAbs().maxCoeff();
+  Eigen::Matrix<double, N, 1> root = Eigen::Matrix<double, N, 1>::Zero();
+  Eigen::Matrix<double, N, 1> inverse_root = Eigen::Matrix<double, N, 1>::Zero();
+  for (int i = 0; i < N; ++i) {
+    if (D[i] > smallest && D[i] > std::numeric_limits<double>::min()) {
+      root[i] = std::sqrt(D[i]);
+      inverse_root[i] = 1.0 / root[i];
+    }
+  }
+  const auto P = ldlt.transpositionsP();
+  SquareRoot<N> result;
+  Eigen::Matrix<double, N, N> permutation = Eigen::Matrix<double, N, N>::Identity();
+  permutation = P * permutation;
+  const Eigen::Matrix<double, N, N> upper = ldlt.matrixU();
+  result.S.noalias() = root.asDiagonal() * upper * permutation;
+  const Eigen::Matrix<double, N, 1> Pg = P * g;
+  result.s = inverse_root.cwiseProduct(ldlt.matrixL().solve(Pg));
+  return result;
+}
+
+}  // namespace trajlo

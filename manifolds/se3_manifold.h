@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ceres/manifold.h>
+
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+/// d(T ⊕ tau)/d(tau) at tau = 0, in the ambient coordinates [qx qy qz qw tx ty tz].
+inline Eigen::Matrix<double, 7, 6, Eigen::RowMajor> Se3PlusJacobian(const SE3& T) {
+  Eigen::Matrix<double, 7, 6, Eigen::RowMajor> J = Eigen::Matrix<double, 7, 6>::Zero();
+  // q ⊗ [theta/2, 1]: the vector part is (w I + [v]x) theta / 2, the scalar part -v·theta / 2.
+  J.block<3, 3>(0, 3) = 0.5 * (T.q.w() * Eigen::Matrix3d::Identity() + so3::Hat(T.q.vec()));
+  J.block<1, 3>(3, 3) = -0.5 * T.q.vec().transpose();
+  J.block<3, 3>(4, 0) = T.q.toRotationMatrix();
+  return J;
+}
+
+/// d(Y ⊖ T)/dY at Y = T. A factor turns its 6-column tangent Jacobian J into Ceres's 7-column one
+/// by J * Se3MinusJacobian(T), because Se3MinusJacobian(T) * Se3PlusJacobian(T) = I.
+inline Eigen::Matrix<double, 6, 7, Eigen::RowMajor> Se3MinusJacobian(const SE3& T) {
+  Eigen::Matrix<double, 6, 7, Eigen::RowMajor> J = Eigen::Matrix<double, 6, 7>::Zero();
+  J.block<3, 3>(3, 0) = 2.0 * (T.q.w() * Eigen::Matrix3d::Identity() - so3::Hat(T.q.vec()));
+  J.block<3, 1>(3, 3) = -2.0 * T.q.vec();
+  J.block<3, 3>(0, 4) = T.q.toRotationMatrix().transpose();
+  return J;
+}
+
+/// SE(3) as a Ceres manifold: 7 ambient coordinates [qx qy qz qw tx ty tz], 6 tangent coordinates
+/// [rho; theta], Plus(x, tau) = x Exp(tau), Minus(y, x) = Log(x⁻¹ y).
+class SE3Manifold final : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return 7; }
+  int TangentSize() const override { return 6; }
+
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
+    Store(trajlo::Plus(SE3::FromData(x), Eigen::Map<const Vector6d>(delta)), x_plus_delta);
+    return true;
+  }
+
+  bool PlusJacobian(const double* x, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>> J(jacobian);
+    J = Se3PlusJacobian(SE3::FromData(x));
+    return true;
+  }
+
+  bool Minus(const double* y, const double* x, double* y_minus_x) const override {
+    const SE3 Y = SE3::FromData(y);
+    const SE3 X = SE3::FromData(x);
+    // Not normalised: Minus stays the function of the ambient y that MinusJacobian differentiates.
+    const SE3 difference(X.q.conjugate() * Y.q, X.q.conjugate() * (Y.t - X.t));
+    Eigen::Map<Vector6d> result(y_minus_x);
+    result = se3::Log(difference);
+    return true;
+  }
+
+  bool MinusJacobian(const double* x, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobian);
+    J = Se3MinusJacobian(SE3::FromData(x));
+    return true;
+  }
+
+ private:
+  static void Store(const SE3& T, double* x) {
+    Eigen::Map<Eigen::Vector4d> q(x);
+    Eigen::Map<Eigen::Vector3d> t(x + 4);
+    q = T.q.coeffs();
+    t = T.t;
+  }
+};
+
+}  // namespace trajlo

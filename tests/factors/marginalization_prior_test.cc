@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "factors/marginalization_prior.h"
+
+#include <Eigen/Dense>
+#include <ceres/autodiff_cost_function.h>
+
+#include "tests/support/autodiff_twins.h"
+#include "tests/support/factor_testing.h"
+#include "tests/support/random_poses.h"
+
+namespace trajlo {
+namespace {
+
+using testing::PriorTwin;
+using testing::Random;
+using testing::TangentJacobian;
+
+Eigen::MatrixXd RandomMatrix(Random* random, int rows, int columns) {
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return random->Gaussian(1.0); });
+}
+
+TEST(MarginalizationPrior, ValueAndJacobianAreThoseOfAutodiff) {
+  Random random;
+  for (int draw = 0; draw < 200; ++draw) {
+    const auto angles = testing::DelicateAngles();
+    MarginalizationPrior prior;
+    prior.linearization_point = random.Pose();
+    prior.sqrt_information = RandomMatrix(&random, 6, 6);
+    prior.offset = RandomMatrix(&random, 6, 1);
+    const SE3 pose = Plus(prior.linearization_point,
+                          random.Tangent(std::min(angles[draw % angles.size()], 3.1), 1.0));
+    const MarginalizationPriorCost factor(prior, /*first_estimate_jacobians=*/false);
+    const ceres::AutoDiffCostFunction<PriorTwin, 6, 7> twin(
+        new PriorTwin{prior.linearization_point, prior.sqrt_information, prior.offset});
+    const double* blocks[1] = {pose.data()};
+    Vector6d value, expected;
+    factor.Evaluate(blocks, value.data(), nullptr);
+    twin.Evaluate(blocks, expected.data(), nullptr);
+    EXPECT_LT((value - expected).norm(), 1e-8 * (1 + expected.norm()));
+    const Eigen::MatrixXd expected_J = TangentJacobian(twin, {pose}, 0);
+    EXPECT_LT((TangentJacobian(factor, {pose}, 0) - expected_J).norm(), 1e-6 * expected_J.norm());
+  }
+}
+
+TEST(MarginalizationPrior, PassesCeresGradientCheckerAndNullJacobianCalls) {
+  Random random(2);
+  MarginalizationPrior prior;
+  prior.linearization_point = random.Pose();
+  prior.sqrt_information = RandomMatrix(&random, 6, 6);
+  const SE3 pose = Plus(prior.linearization_point, random.Tangent(0.3, 0.4));
+  const MarginalizationPriorCost factor(prior, false);
+  testing::ExpectJacobiansMatchNumericOnes(factor, {pose}, 1e-6);
+  testing::ExpectNullJacobianFormsWork(factor, {pose});
+}
+
+TEST(MarginalizationPrior, FirstEstimateJacobianIsTheOneAtTheLinearizationPoint) {
+  Random random(3);
+  MarginalizationPrior prior;
+  prior.linearization_point = random.Pose();
+  prior.sqrt_information = RandomMatrix(&random, 6, 6);
+  const SE3 pose = Plus(prior.linearization_point, random.Tangent(0.3, 0.4));
+  EXPECT_EQ(prior.Jacobian(pose, true), prior.sqrt_information);
+  EXPECT_TRUE(prior.Jacobian(prior.linearization_point, false).isApprox(prior.sqrt_information));
+}
+
+TEST(MarginalizationPrior, SchurAndQrAgree) {
+  Random random(4);
+  for (int draw = 0; draw < 50; ++draw) {
+    const Eigen::Matrix<double, Eigen::Dynamic, 12> J = RandomMatrix(&random, 25, 12);
+    const Eigen::VectorXd r = RandomMatrix(&random, 25, 1);
+    const SE3 at = random.Pose();
+    const auto schur = MarginalizeSchur(J.transpose() * J, J.transpose() * r, at);
+    const auto qr = MarginalizeQr(J, r, at);
+    EXPECT_TRUE(schur.Information().isApprox(qr.Information(), 1e-10));
+    EXPECT_TRUE(schur.Gradient().isApprox(qr.Gradient(), 1e-10));
+  }
+}
+
+TEST(MarginalizationPrior, PoseByPoseOnALinearProblemEqualsTheFullBatch) {
+  Random random(5);
+  for (int draw = 0; draw < 20; ++draw) {
+    // A chain x0..x5 of linear residuals between neighbours and an anchor on x0.
+    constexpr int kPoses = 6;
+    Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6 * kPoses, 6 * kPoses);
+    Eigen::VectorXd g = Eigen::VectorXd::Zero(6 * kPoses);
+    H.topLeftCorner<6, 6>().setIdentity();
+    std::vector<Matrix12d> link_H;
+    std::vector<Vector12d> link_g;
+    for (int k = 0; k + 1 < kPoses; ++k) {
+      const Eigen::MatrixXd J = RandomMatrix(&random, 20, 12);
+      const Eigen::VectorXd r = RandomMatrix(&random, 20, 1);
+      link_H.push_back(J.transpose() * J);
+      link_g.push_back(J.transpose() * r);
+      H.block<12, 12>(6 * k, 6 * k) += link_H.back();
+      g.segment<12>(6 * k) += link_g.back();
+    }
+    const Eigen::VectorXd batch = -H.ldlt().solve(g);
+
+    MarginalizationPrior prior = MakeAnchor(SE3(), 1.0, 1.0);
+    for (int k = 0; k + 1 < kPoses; ++k) {
+      Matrix12d H_local = link_H[k];
+      Vector12d g_local = link_g[k];
+      H_local.topLeftCorner<6, 6>() += prior.Information();
+      g_local.head<6>() += prior.Gradient();
+      prior = MarginalizeSchur(H_local, g_local, SE3());
+    }
+    const Vector6d last = -prior.Information().ldlt().solve(prior.Gradient());
+    EXPECT_LT((last - batch.tail<6>()).norm(), 1e-10);
+    // The covariance of the last pose is that of the full batch, too.
+    const Matrix6d covariance = H.inverse().bottomRightCorner<6, 6>();
+    EXPECT_TRUE(prior.Information().inverse().isApprox(covariance, 1e-9));
+  }
+}
+
+TEST(MarginalizationPrior, DirectionsThatNobodyMeasuredStayFree) {
+  // Only a relative measurement between the two poses, along five of six directions.
+  Matrix12d H = Matrix12d::Zero();
+  for (int i = 0; i < 5; ++i) {
+    H(i, i) = H(6 + i, 6 + i) = 1.0;
+    H(i, 6 + i) = H(6 + i, i) = -1.0;
+  }
+  const auto prior = MarginalizeSchur(H, Vector12d::Zero(), SE3());
+  EXPECT_LT(prior.Information().norm(), 1e-12) << "a relative measurement must not anchor a pose";
+  // With an anchor on the leaving pose, exactly the five measured directions are held.
+  H.topLeftCorner<6, 6>() += Matrix6d::Identity();
+  const Matrix6d information = MarginalizeSchur(H, Vector12d::Zero(), SE3()).Information();
+  EXPECT_NEAR(information(5, 5), 0.0, 1e-12);
+  EXPECT_NEAR(information(0, 0), 0.5, 1e-12);
+}
+
+TEST(MarginalizationPrior, TheLinearTermPullsToTheMinimumOfWhatWasEliminated) {
+  // ½|x_l - a|² + ½|x_s - x_l - b|² has its minimum over x_l at ½·½|x_s - a - b|².
+  Matrix12d H = Matrix12d::Zero();
+  H.topLeftCorner<6, 6>() = 2.0 * Matrix6d::Identity();
+  H.bottomRightCorner<6, 6>().setIdentity();
+  H.topRightCorner<6, 6>() = H.bottomLeftCorner<6, 6>() = -Matrix6d::Identity();
+  const Vector6d a = Vector6d::Constant(0.3), b = Vector6d::LinSpaced(0.1, 0.6);
+  Vector12d g;
+  g << -a + b, -b;
+  const auto prior = MarginalizeSchur(H, g, SE3());
+  const Vector6d minimum = -prior.Information().ldlt().solve(prior.Gradient());
+  EXPECT_LT((minimum - (a + b)).norm(), 1e-12);
+}
+
+TEST(MarginalizationPrior, AnAnchorIsWhatItsSigmasSay) {
+  const auto anchor = MakeAnchor(SE3(), 0.5, 0.1);
+  Vector6d tau = Vector6d::Zero();
+  tau << 0.5, 0, 0, 0, 0, 0.1;
+  EXPECT_NEAR(anchor.Residual(se3::Exp(tau)).squaredNorm(), 2.0, 1e-2);
+}
+
+}  // namespace
+}  // namespace trajlo
