@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimation/ceres_solver.h"
+
+#include <ceres/evaluation_callback.h>
+#include <ceres/problem.h>
+
+#include "manifolds/se3_manifold.h"
+
+namespace trajlo {
+namespace {
+
+/// Computes the registration of all segments before Ceres asks the blocks for it.
+class PrepareRegistration final : public ceres::EvaluationCallback {
+ public:
+  PrepareRegistration(const WindowProblem* problem, RegistrationEvaluator* evaluator)
+      : problem_(problem),
+        evaluator_(evaluator),
+        blocks_(problem->poses.size()),
+        equations_(problem->points.size()) {
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      std::copy_n(problem->poses[i].data(), 7, blocks_[i].data());
+    }
+  }
+
+  void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override {
+    if (!new_evaluation_point && (have_jacobians_ || !evaluate_jacobians)) return;
+    evaluator_->Evaluate(*problem_, Poses(), evaluate_jacobians, &equations_);
+    have_jacobians_ = evaluate_jacobians;
+  }
+
+  std::vector<SE3> Poses() const {
+    std::vector<SE3> poses;
+    for (const auto& block : blocks_) poses.push_back(SE3::FromData(block.data()));
+    return poses;
+  }
+
+  double* block(int k) { return blocks_[static_cast<std::size_t>(k)].data(); }
+  const RegistrationNormalEquations* equations(int k) const { return &equations_[k]; }
+
+ private:
+  const WindowProblem* problem_;
+  RegistrationEvaluator* evaluator_;
+  std::vector<std::array<double, 7>> blocks_;
+  std::vector<RegistrationNormalEquations> equations_;
+  bool have_jacobians_ = false;
+};
+
+ceres::Solver::Options MakeSolverOptions(const SolverOptions& options) {
+  ceres::Solver::Options result;
+  const CeresOptions& c = options.ceres;
+  switch (c.linear_solver) {
+    case LinearSolverKind::kDenseNormalCholesky:
+      result.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+      break;
+    case LinearSolverKind::kDenseQr:
+      result.linear_solver_type = ceres::DENSE_QR;
+      break;
+    case LinearSolverKind::kSparseNormalCholesky:
+      result.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+      result.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+      break;
+    case LinearSolverKind::kCgnr:
+      result.linear_solver_type = ceres::CGNR;
+      break;
+  }
+  result.trust_region_strategy_type = c.trust_region == TrustRegionKind::kDogleg
+                                          ? ceres::DOGLEG
+                                          : ceres::LEVENBERG_MARQUARDT;
+  result.initial_trust_region_radius = c.initial_trust_region_radius;
+  result.max_trust_region_radius = std::max(1e16, c.initial_trust_region_radius);
+  result.function_tolerance = c.function_tolerance;
+  result.gradient_tolerance = c.gradient_tolerance;
+  result.parameter_tolerance = c.parameter_tolerance;
+  result.max_num_iterations = options.iterations_per_round;
+  // First-estimate Jacobians are not the derivative of the residual: a step that lowers the cost a
+  // little less than they promise is still right.
+  result.min_relative_decrease = 0.0;
+  result.logging_type = ceres::SILENT;
+  result.num_threads = 1;
+  return result;
+}
+
+}  // namespace
+
+CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
+    : solver_options_(MakeSolverOptions(options)), evaluator_(threads) {}
+
+SolveSummary CeresSolver::Solve(WindowProblem* problem) {
+  PrepareRegistration prepare(problem, &evaluator_);
+  SE3Manifold manifold;
+  ceres::Problem::Options problem_options;
+  problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.disable_all_safety_checks = true;
+  problem_options.evaluation_callback = &prepare;
+  ceres::Problem ceres_problem(problem_options);
+  for (std::size_t k = 0; k < problem->poses.size(); ++k) {
+    ceres_problem.AddParameterBlock(prepare.block(static_cast<int>(k)), 7, &manifold);
+  }
+  for (int k = 0; k < problem->segments(); ++k) {
+    double* begin = prepare.block(k);
+    double* end = prepare.block(k + 1);
+    if (!problem->points[k]->empty()) {
+      ceres_problem.AddResidualBlock(new PreparedRegistrationCost(prepare.equations(k)), nullptr,
+                                     begin, end);
+    }
+    ceres_problem.AddResidualBlock(
+        new SmoothnessCost(problem->smoothness[k], problem->LinearizationPoint(k)), nullptr, begin,
+        end);
+  }
+  ceres_problem.AddResidualBlock(
+      new MarginalizationPriorCost(problem->prior, problem->first_estimate_jacobians), nullptr,
+      prepare.block(0));
+
+  ceres::Solver::Summary ceres_summary;
+  ceres::Solve(solver_options_, &ceres_problem, &ceres_summary);
+
+  SolveSummary summary;
+  summary.iterations = static_cast<int>(ceres_summary.iterations.size()) - 1;
+  const std::vector<SE3> solution = prepare.Poses();
+  for (const SE3& pose : solution) summary.finite = summary.finite && pose.IsFinite();
+  summary.finite = summary.finite && ceres_summary.IsSolutionUsable();
+  if (!summary.finite) return summary;
+  MeasureStep(problem->poses, solution, &summary);
+  problem->poses = solution;
+
+  summary.cost.prior = 0.5 * problem->prior.Residual(solution[0]).squaredNorm();
+  for (int k = 0; k < problem->segments(); ++k) {
+    summary.cost.smoothness +=
+        0.5 * problem->smoothness[k].Residual(solution[k], solution[k + 1]).squaredNorm();
+  }
+  summary.cost.registration =
+      ceres_summary.final_cost - summary.cost.smoothness - summary.cost.prior;
+  return summary;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimation/odometry.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/estimation/initial_motion.h"
+#include "core/estimation/sliding_window.h"
+
+namespace trajlo {
+namespace {
+
+class Stopwatch {
+ public:
+  double Milliseconds() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
+    start_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double Seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+
+}  // namespace
+
+class Odometry::Impl {
+ public:
+  explicit Impl(const OdometryOptions& options)
+      : options_(options),
+        threads_(options.threads),
+        segmenter_(options.segmenter),
+        map_(MakePointMap(options.map)),
+        window_(options, map_.get(), &threads_) {}
+
+  void AddScan(const LidarScan& scan) {
+    Stopwatch watch;
+    segmenter_.AddScan(scan);
+    milliseconds_segment_ += watch.Milliseconds();
+    ProcessSegments();
+  }
+
+  void Finish() {
+    segmenter_.Finish();
+    ProcessSegments();
+    if (!started_) return;
+    while (window_.segments() > 0) Leave();
+    trajectory_.Append(window_.front_pose());
+  }
+
+  OdometryOptions options_;
+  ThreadPool threads_;
+  Segmenter segmenter_;
+  std::unique_ptr<PointMap> map_;
+  SlidingWindow window_;
+  Trajectory trajectory_;
+  std::function<void(const WindowStatistics&)> callback_;
+  std::optional<std::int64_t> lost_at_ns_;
+
+ private:
+  void ProcessSegments() {
+    while (auto cloud = segmenter_.Next()) {
+      if (!started_) {
+        Start(*cloud);
+      } else {
+        Process(std::move(*cloud));
+      }
+    }
+  }
+
+  /// The first interval: its motion, then its points into the map.
+  void Start(const SegmentCloud& cloud) {
+    started_ = true;
+    Vector6d tau = Vector6d::Zero();
+    const double duration_s = Seconds(cloud.end_ns - cloud.begin_ns);
+    if (options_.initialization.estimate_motion && duration_s > 0.0) {
+      const InitialMotion motion = EstimateInitialMotion(
+          cloud, options_.map, options_.association, options_.weights, &threads_);
+      if (motion.agreement > options_.initialization.min_gain * motion.agreement_at_rest) {
+        tau = motion.tau;
+      }
+    }
+    AddToMap(cloud, SE3(), se3::Exp(tau));
+    if (duration_s > 0.0) trajectory_.Append({cloud.begin_ns, SE3(), 0});
+    window_.Start(cloud.end_ns, se3::Exp(tau), duration_s > 0.0 ? Vector6d(tau / duration_s)
+                                                                : Vector6d::Zero());
+  }
+
+  void Process(SegmentCloud cloud) {
+    if (cloud.is_gap) {
+      BridgeGap(cloud);
+      return;
+    }
+    WindowStatistics statistics = window_.AddSegment(std::move(cloud));
+    statistics.index = windows_++;
+    statistics.milliseconds_segment = std::exchange(milliseconds_segment_, 0.0);
+    if (window_.segments() >= options_.window.segments) {
+      const auto [marginalize_ms, map_ms] = Leave();
+      statistics.milliseconds_marginalize = marginalize_ms;
+      statistics.milliseconds_map = map_ms;
+    }
+    WatchForLoss(&statistics);
+    if (callback_) callback_(statistics);
+  }
+
+  /// The oldest segment leaves: its first pose is settled, its points enter the map.
+  std::pair<double, double> Leave() {
+    Stopwatch watch;
+    trajectory_.Append(window_.front_pose());
+    const SlidingWindow::Left left = window_.Marginalize();
+    const double marginalize_ms = watch.Milliseconds();
+    AddToMap(left.cloud, left.T_begin, left.T_end);
+    map_->RemoveFar(left.T_end.t);
+    return {marginalize_ms, watch.Milliseconds()};
+  }
+
+  /// A pause longer than max_gap_s: nobody knows what happened. The pose is held, at rest.
+  void BridgeGap(const SegmentCloud& gap) {
+    while (window_.segments() > 0) Leave();
+    ControlPose held = window_.front_pose();
+    held.flags |= kFlagGap;
+    trajectory_.Append(held);
+    window_.Start(gap.end_ns, held.T_world_body, Vector6d::Zero());
+  }
+
+  void AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end) {
+    const Vector6d tau = Minus(T_end, T_begin);
+    points_world_.resize(cloud.map_points.size());
+    constexpr std::size_t kChunk = 512;
+    threads_.ParallelFor((points_world_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+      const std::size_t last = std::min(points_world_.size(), (chunk + 1) * kChunk);
+      for (std::size_t i = chunk * kChunk; i < last; ++i) {
+        const SegmentPoint& point = cloud.map_points[i];
+        points_world_[i] =
+            T_begin * (se3::Exp(point.alpha * tau) * point.p_body_m.cast<double>());
+      }
+    });
+    map_->Insert(points_world_);
+  }
+
+  void WatchForLoss(WindowStatistics* statistics) {
+    const bool few = statistics->InlierShare() < options_.lost.min_inlier_share;
+    if (!few) {
+      few_since_ns_.reset();
+      return;
+    }
+    if (!few_since_ns_) few_since_ns_ = statistics->end_ns;
+    if (Seconds(statistics->end_ns - *few_since_ns_) < options_.lost.max_duration_s) return;
+    statistics->flags |= kFlagLost;
+    if (!lost_at_ns_) lost_at_ns_ = few_since_ns_;
+  }
+
+  bool started_ = false;
+  std::int64_t windows_ = 0;
+  double milliseconds_segment_ = 0.0;
+  std::vector<Eigen::Vector3d> points_world_;
+  std::optional<std::int64_t> few_since_ns_;
+};
+
+Odometry::Odometry(const OdometryOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Odometry::~Odometry() = default;
+
+void Odometry::AddScan(const LidarScan& scan) { impl_->AddScan(scan); }
+void Odometry::Finish() { impl_->Finish(); }
+void Odometry::OnWindow(std::function<void(const WindowStatistics&)> callback) {
+  impl_->callback_ = std::move(callback);
+}
+const Trajectory& Odometry::trajectory() const { return impl_->trajectory_; }
+const PointMap& Odometry::map() const { return *impl_->map_; }
+const PointCounts& Odometry::point_counts() const { return impl_->segmenter_.counts(); }
+std::optional<std::int64_t> Odometry::lost_at_ns() const { return impl_->lost_at_ns_; }
+
+}  // namespace trajlo

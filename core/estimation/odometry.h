@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/estimation/adaptive_threshold.h"
+#include "core/estimation/association.h"
+#include "core/estimation/solver_options.h"
+#include "core/estimation/window_statistics.h"
+#include "core/map/point_map.h"
+#include "core/sensing/segmenter.h"
+#include "core/trajectory/trajectory.h"
+
+namespace trajlo {
+
+struct WindowOptions {
+  /// The paper's K: segments that are estimated together.
+  int segments = 4;
+};
+
+struct InitializationOptions {
+  /// Estimates the motion during the first interval by registering its second half to its first
+  /// one; otherwise a stationary start is assumed, as in the paper.
+  bool estimate_motion = true;
+  /// The estimated motion is believed only if it brings this many times as many points onto planes
+  /// as standing still does.
+  double min_gain = 1.15;
+};
+
+struct LostOptions {
+  /// The estimator is lost when fewer than this share of the points find a plane ...
+  double min_inlier_share = 0.05;
+  /// ... for longer than this.
+  double max_duration_s = 1.0;
+  /// A solve that moves the newest pose farther than this from its prediction is not believed.
+  double max_correction_m = 3.0;
+  double max_correction_rad = 1.0;
+  /// Below this information per point a direction counts as degenerate (a well-spread scene has
+  /// 0.05 to 0.2).
+  double degenerate_eigenvalue = 0.002;
+};
+
+/// Everything that the estimator can be told, by module.
+struct OdometryOptions {
+  SegmenterOptions segmenter;
+  MapOptions map;
+  AssociationOptions association;
+  AdaptiveThresholdOptions threshold;
+  WeightOptions weights;
+  SolverOptions solver;
+  MarginalizationOptions marginalization;
+  WindowOptions window;
+  InitializationOptions initialization;
+  LostOptions lost;
+  /// 0 takes all cores. No result depends on it.
+  int threads = 0;
+};
+
+/// LiDAR odometry: scans go in, a continuous-time trajectory and a map come out.
+///
+///   Odometry odometry(options);
+///   while (reader.Next(&scan)) odometry.AddScan(scan);
+///   odometry.Finish();
+///   odometry.trajectory().At(t_ns);
+///
+/// The world frame is the body frame at the first point.
+class Odometry {
+ public:
+  explicit Odometry(const OdometryOptions& options);
+  ~Odometry();
+
+  /// Processes every window that this scan completes.
+  void AddScan(const LidarScan& scan);
+  /// Processes what is left and settles all control poses.
+  void Finish();
+
+  /// Called after every window.
+  void OnWindow(std::function<void(const WindowStatistics&)> callback);
+
+  /// The control poses that have left the window (all of them after Finish).
+  const Trajectory& trajectory() const;
+  const PointMap& map() const;
+  const PointCounts& point_counts() const;
+  /// When the estimator got lost, if it did (sticky).
+  std::optional<std::int64_t> lost_at_ns() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trajlo

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimation/sliding_window.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace trajlo {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double MillisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+SlidingWindow::SlidingWindow(const OdometryOptions& options, const PointMap* map,
+                             ThreadPool* threads)
+    : options_(options),
+      map_(map),
+      threads_(threads),
+      solver_(MakeWindowSolver(options.solver, threads)),
+      evaluator_(threads),
+      threshold_(options.threshold) {}
+
+void SlidingWindow::Start(std::int64_t t_ns, const SE3& T_world_body, const Vector6d& velocity) {
+  segments_.clear();
+  front_ns_ = t_ns;
+  front_flags_ = 0;
+  velocity_before_ = velocity;
+  problem_.poses = {T_world_body};
+  problem_.prior = MakeAnchor(T_world_body, options_.marginalization.anchor_sigma_translation_m,
+                              options_.marginalization.anchor_sigma_rotation_rad);
+  problem_.first_estimate_jacobians = options_.marginalization.first_estimate_jacobians;
+}
+
+ControlPose SlidingWindow::front_pose() const {
+  return {front_ns_, problem_.poses.front(), front_flags_};
+}
+
+WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
+  segments_.emplace_back();
+  segments_.back().cloud = std::move(cloud);
+  Predict();
+  const SE3 predicted = problem_.poses.back();
+  const std::vector<SE3> start = problem_.poses;
+
+  WindowStatistics statistics;
+  statistics.begin_ns = front_ns_;
+  statistics.end_ns = segments_.back().cloud.end_ns;
+  statistics.segments = segments();
+  statistics.threshold_m = threshold_.threshold_m();
+  statistics.kernel_m = KernelWidth();
+  bool converged = false;
+  bool finite = true;
+  while (statistics.rounds < options_.solver.max_rounds && !converged && finite) {
+    const Clock::time_point associate_start = Clock::now();
+    const auto counts = AssociateAll(statistics.rounds == 0);
+    statistics.searched += counts.searched;
+    statistics.inliers = counts.associated;
+    statistics.milliseconds_associate += MillisecondsSince(associate_start);
+
+    const Clock::time_point solve_start = Clock::now();
+    BuildProblem();
+    const SolveSummary summary = solver_->Solve(&problem_);
+    statistics.milliseconds_solve += MillisecondsSince(solve_start);
+    ++statistics.rounds;
+    statistics.iterations += summary.iterations;
+    statistics.cost_registration = summary.cost.registration;
+    statistics.cost_smoothness = summary.cost.smoothness;
+    statistics.cost_prior = summary.cost.prior;
+    statistics.last_step_m = summary.step_m;
+    statistics.last_step_rad = summary.step_rad;
+    finite = summary.finite;
+    converged = summary.step_m < options_.solver.step_tolerance_m &&
+                summary.step_rad < options_.solver.step_tolerance_rad;
+  }
+  for (const Segment& segment : segments_) {
+    statistics.points += static_cast<int>(segment.cloud.registration_points.size());
+  }
+
+  const SE3 correction = predicted.Inverse() * problem_.poses.back();
+  const bool jumped = correction.t.norm() > options_.lost.max_correction_m ||
+                      so3::Log(correction.q).norm() > options_.lost.max_correction_rad;
+  if (!finite || jumped) {
+    problem_.poses = start;
+    statistics.flags |= kFlagReverted;
+  } else {
+    threshold_.AddPredictionError(correction);
+    if (!converged) statistics.flags |= kFlagNotConverged;
+  }
+  if (segments_.back().association.registration_points().empty()) {
+    statistics.flags |= kFlagNoPoints;
+  }
+  std::vector<RegistrationNormalEquations> registration;
+  evaluator_.Evaluate(problem_, problem_.poses, true, &registration);
+  const WindowCondition condition = ConditionOf(problem_, registration);
+  statistics.smallest_eigenvalue = condition.smallest_eigenvalue;
+  statistics.weak_direction = condition.weak_direction;
+  if (condition.smallest_eigenvalue < options_.lost.degenerate_eigenvalue) {
+    statistics.flags |= kFlagDegenerate;
+  }
+  segments_.back().flags = statistics.flags;
+  return statistics;
+}
+
+void SlidingWindow::Predict() {
+  const int n = segments();
+  // The pseudo-velocities of the whole window are those of the previous solve.
+  std::vector<Vector6d> velocity(static_cast<std::size_t>(n));
+  velocity[0] = velocity_before_;
+  for (int k = 1; k < n; ++k) {
+    velocity[k] = Minus(problem_.poses[k], problem_.poses[k - 1]) / segments_[k - 1].Duration_s();
+  }
+  expected_velocity_ = velocity;
+  problem_.poses.push_back(
+      Plus(problem_.poses.back(), velocity.back() * segments_.back().Duration_s()));
+}
+
+double SlidingWindow::KernelWidth() const {
+  return std::clamp(options_.weights.kernel_in_thresholds * threshold_.threshold_m(),
+                    options_.weights.min_kernel_m, options_.weights.max_kernel_m);
+}
+
+SegmentAssociation::Counts SlidingWindow::AssociateAll(bool renew) {
+  SegmentAssociation::Counts sum;
+  for (int k = 0; k < segments(); ++k) {
+    const auto counts = segments_[k].association.Associate(
+        segments_[k].cloud.registration_points, problem_.poses[k], problem_.poses[k + 1], *map_,
+        options_.association, threshold_.threshold_m(), renew, threads_);
+    sum.searched += counts.searched;
+    sum.associated += counts.associated;
+  }
+  return sum;
+}
+
+void SlidingWindow::BuildProblem() {
+  const WeightOptions& weights = options_.weights;
+  problem_.noise = {weights.registration_sigma_m,
+                    {weights.kernel, KernelWidth() / weights.registration_sigma_m}};
+  problem_.points.clear();
+  problem_.smoothness.clear();
+  for (int k = 0; k < segments(); ++k) {
+    const Segment& segment = segments_[k];
+    problem_.points.push_back(&segment.association.registration_points());
+    SmoothnessTerm term;
+    term.tau_expected = expected_velocity_[k] * segment.Duration_s();
+    term.sqrt_information.head<3>().setConstant(1.0 / weights.smoothness_sigma_translation_m);
+    term.sqrt_information.tail<3>().setConstant(1.0 / weights.smoothness_sigma_rotation_rad);
+    if (weights.smoothness_scales_with_points) {
+      const auto points = static_cast<double>(problem_.points.back()->size());
+      term.sqrt_information *= std::sqrt(std::max(points, 1.0));
+    }
+    problem_.smoothness.push_back(term);
+  }
+}
+
+SlidingWindow::Left SlidingWindow::Marginalize() {
+  std::vector<RegistrationNormalEquations> registration;
+  BuildProblem();
+  evaluator_.Evaluate(problem_, problem_.poses, true, &registration);
+  const MarginalizationOptions& marginalization = options_.marginalization;
+  MarginalizationPrior prior =
+      marginalization.enabled
+          ? MarginalizeOldest(problem_, registration[0], marginalization.use_qr)
+          : MakeAnchor(problem_.poses[1], marginalization.anchor_sigma_translation_m,
+                       marginalization.anchor_sigma_rotation_rad);
+
+  Segment& oldest = segments_.front();
+  Left left{std::move(oldest.cloud), problem_.poses[0], problem_.poses[1]};
+  velocity_before_ =
+      Minus(left.T_end, left.T_begin) / (static_cast<double>(left.cloud.end_ns - left.cloud.begin_ns) * 1e-9);
+  front_ns_ = left.cloud.end_ns;
+  front_flags_ = oldest.flags;
+  segments_.pop_front();
+  expected_velocity_.erase(expected_velocity_.begin());
+  problem_.poses.erase(problem_.poses.begin());
+  problem_.prior = prior;
+  return left;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+/// What can be wrong with a window; bits of WindowStatistics::flags.
+enum WindowFlag : unsigned {
+  kFlagNoPoints = 1u << 0,      ///< The newest segment has no associated point: smoothness carries it.
+  kFlagGap = 1u << 1,           ///< A pause in the recording was bridged.
+  kFlagReverted = 1u << 2,      ///< A solve was not finite or jumped: the prediction stands.
+  kFlagNotConverged = 1u << 3,  ///< The rounds ran out before the steps became small.
+  kFlagDegenerate = 1u << 4,    ///< A direction is held by smoothness and prior alone.
+  kFlagLost = 1u << 5,          ///< Too few associations for too long.
+};
+
+/// One line of windows.csv: what happened in one sliding-window solve.
+struct WindowStatistics {
+  std::int64_t index = 0;
+  std::int64_t begin_ns = 0;  ///< First control pose of the window.
+  std::int64_t end_ns = 0;    ///< Newest control pose.
+  int segments = 0;
+  int points = 0;      ///< Registration points in the window.
+  int inliers = 0;     ///< Those with a plane in the last round.
+  int searched = 0;    ///< Map queries over all rounds; the others kept their plane.
+  int rounds = 0;      ///< associate ↔ solve rounds.
+  int iterations = 0;  ///< Solver iterations over all rounds.
+  double cost_registration = 0.0;
+  double cost_smoothness = 0.0;
+  double cost_prior = 0.0;
+  double threshold_m = 0.0;
+  double kernel_m = 0.0;
+  /// Smallest eigenvalue of the registration information of the newest control poses, per point,
+  /// and its direction [rho; theta] in the body frame.
+  double smallest_eigenvalue = 0.0;
+  Vector6d weak_direction = Vector6d::Zero();
+  double last_step_m = 0.0;
+  double last_step_rad = 0.0;
+  double milliseconds_segment = 0.0;
+  double milliseconds_associate = 0.0;
+  double milliseconds_solve = 0.0;
+  double milliseconds_marginalize = 0.0;
+  double milliseconds_map = 0.0;
+  unsigned flags = 0;
+
+  double InlierShare() const { return points > 0 ? static_cast<double>(inliers) / points : 0.0; }
+};
+
+}  // namespace trajlo

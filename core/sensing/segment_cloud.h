@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace trajlo {
+
+/// A point of a segment in the body frame at its own time; `alpha` is that time as a share of the
+/// segment: 0 at its begin, 1 at its end.
+struct SegmentPoint {
+  Eigen::Vector3f p_body_m;
+  float alpha;
+};
+
+/// What became of the points that the readers delivered.
+struct PointCounts {
+  std::int64_t received = 0;
+  std::int64_t not_finite = 0;
+  std::int64_t too_near = 0;  ///< Includes the (0, 0, 0) of a missing return.
+  std::int64_t too_far = 0;
+  std::int64_t too_late = 0;  ///< Older than what was already processed, or a repeated scan.
+
+  std::int64_t Kept() const { return received - not_finite - too_near - too_far - too_late; }
+};
+
+/// All that the LiDARs measured in [begin_ns, end_ns), merged in the body frame and thinned twice.
+struct SegmentCloud {
+  std::int64_t begin_ns = 0;
+  std::int64_t end_ns = 0;
+  /// True for the one long, empty segment that stands for a pause in the recording.
+  bool is_gap = false;
+  std::vector<SegmentPoint> map_points;           ///< Fine: what enters the map.
+  std::vector<SegmentPoint> registration_points;  ///< Coarse subset: what is registered.
+};
+
+}  // namespace trajlo

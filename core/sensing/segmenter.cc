@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "core/sensing/segmenter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trajlo {
+namespace {
+
+constexpr std::int64_t kUnseen = std::numeric_limits<std::int64_t>::min();
+
+std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
+
+/// Turns the ray up by `angle_rad` about the horizontal axis p x z, which is perpendicular to it.
+Eigen::Vector3f TurnUp(const Eigen::Vector3f& p, float angle_rad) {
+  const Eigen::Vector3f axis = p.cross(Eigen::Vector3f::UnitZ());
+  const float norm = axis.norm();
+  if (norm < 1e-6F) return p;
+  return p * std::cos(angle_rad) + (axis / norm).cross(p) * std::sin(angle_rad);
+}
+
+}  // namespace
+
+Segmenter::Segmenter(const SegmenterOptions& options)
+    : options_(options),
+      map_filter_(options.map_voxel_m),
+      registration_filter_(options.registration_voxel_m),
+      newest_ns_(std::max<std::size_t>(options.T_body_lidar.size(), 1), kUnseen) {}
+
+void Segmenter::AddScan(const LidarScan& scan) {
+  counts_.received += static_cast<std::int64_t>(scan.points.size());
+  const auto lidar = static_cast<std::size_t>(scan.lidar_id);
+  if (lidar >= newest_ns_.size()) newest_ns_.resize(lidar + 1, kUnseen);
+  if (scan.has_point_times) {
+    AddContinuous(scan);
+  } else {
+    AddDiscrete(scan);
+  }
+}
+
+bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body) {
+  Eigen::Vector3f p = point.xyz_m;
+  if (!p.allFinite()) {
+    ++counts_.not_finite;
+    return false;
+  }
+  const double range = p.cast<double>().norm();
+  if (range < options_.min_range_m) {
+    ++counts_.too_near;
+    return false;
+  }
+  if (range > options_.max_range_m) {
+    ++counts_.too_far;
+    return false;
+  }
+  if (options_.vertical_correction_deg != 0.0) {
+    p = TurnUp(p, static_cast<float>(options_.vertical_correction_deg * M_PI / 180.0));
+  }
+  *p_body = (T_body_lidar * p.cast<double>()).cast<float>();
+  return true;
+}
+
+void Segmenter::OpenNext(std::int64_t end_ns, bool is_gap) {
+  Open next;
+  next.cloud.begin_ns = *end_ns_;
+  next.cloud.end_ns = end_ns;
+  next.cloud.is_gap = is_gap;
+  open_.push_back(std::move(next));
+  end_ns_ = end_ns;
+}
+
+Segmenter::Open& Segmenter::SegmentAt(std::int64_t t_ns) {
+  while (t_ns >= *end_ns_) OpenNext(*end_ns_ + ToNs(options_.interval_s), false);
+  std::size_t i = open_.size() - 1;
+  while (t_ns < open_[i].cloud.begin_ns) --i;
+  return open_[i];
+}
+
+void Segmenter::AddContinuous(const LidarScan& scan) {
+  const auto lidar = static_cast<std::size_t>(scan.lidar_id);
+  const SE3 T_body_lidar =
+      lidar < options_.T_body_lidar.size() ? options_.T_body_lidar[lidar] : SE3();
+  if (scan.points.empty()) return;
+  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
+  for (const LidarPoint& point : scan.points) first_ns = std::min(first_ns, point.t_ns);
+
+  if (!end_ns_) {
+    end_ns_ = first_ns;
+    OpenNext(first_ns + ToNs(options_.first_interval_s), false);
+  }
+  const std::int64_t max_gap_ns = ToNs(options_.max_gap_s);
+  if (first_ns > *end_ns_ + max_gap_ns) {
+    CompleteUntil(std::numeric_limits<std::int64_t>::max());
+    OpenNext(first_ns, true);
+    CompleteUntil(std::numeric_limits<std::int64_t>::max());
+  }
+
+  std::int64_t newest_ns = kUnseen;
+  for (const LidarPoint& point : scan.points) {
+    const bool out_of_order =
+        point.t_ns < (open_.empty() ? *end_ns_ : open_.front().cloud.begin_ns) ||
+        point.t_ns > *end_ns_ + max_gap_ns;
+    if (out_of_order) {
+      ++counts_.too_late;
+      continue;
+    }
+    newest_ns = std::max(newest_ns, point.t_ns);
+    Eigen::Vector3f p_body;
+    if (!Accept(point, T_body_lidar, &p_body)) continue;
+    Open& segment = SegmentAt(point.t_ns);
+    const double alpha = static_cast<double>(point.t_ns - segment.cloud.begin_ns) /
+                         static_cast<double>(segment.cloud.end_ns - segment.cloud.begin_ns);
+    segment.points.push_back({p_body, static_cast<float>(alpha)});
+  }
+  newest_ns_[lidar] = std::max(newest_ns_[lidar], newest_ns);
+
+  const std::int64_t leader = *std::max_element(newest_ns_.begin(), newest_ns_.end());
+  std::int64_t slowest = leader;
+  for (const std::int64_t newest : newest_ns_) {
+    if (newest == kUnseen || newest < leader - ToNs(options_.max_lag_s)) continue;
+    slowest = std::min(slowest, newest);
+  }
+  const bool all_seen =
+      std::find(newest_ns_.begin(), newest_ns_.end(), kUnseen) == newest_ns_.end();
+  // A LiDAR that has not spoken yet is waited for only so long.
+  if (!all_seen) slowest = std::min(slowest, leader - ToNs(options_.max_lag_s));
+  CompleteUntil(slowest);
+}
+
+void Segmenter::AddDiscrete(const LidarScan& scan) {
+  const auto lidar = static_cast<std::size_t>(scan.lidar_id);
+  const SE3 T_body_lidar =
+      lidar < options_.T_body_lidar.size() ? options_.T_body_lidar[lidar] : SE3();
+  if (end_ns_ && scan.stamp_ns <= *end_ns_) {
+    counts_.too_late += static_cast<std::int64_t>(scan.points.size());
+    return;
+  }
+  if (!end_ns_) end_ns_ = scan.stamp_ns;
+  if (scan.stamp_ns > *end_ns_ + ToNs(options_.max_gap_s)) OpenNext(scan.stamp_ns - 1, true);
+  OpenNext(scan.stamp_ns, false);
+  for (const LidarPoint& point : scan.points) {
+    Eigen::Vector3f p_body;
+    if (Accept(point, T_body_lidar, &p_body)) open_.back().points.push_back({p_body, 1.0F});
+  }
+  newest_ns_[lidar] = scan.stamp_ns;
+  CompleteUntil(scan.stamp_ns);
+}
+
+void Segmenter::CompleteUntil(std::int64_t t_ns) {
+  while (!open_.empty() && open_.front().cloud.end_ns <= t_ns) {
+    Complete(&open_.front());
+    open_.pop_front();
+  }
+}
+
+void Segmenter::Complete(Open* open) {
+  SegmentCloud* cloud = &open->cloud;
+  if (first_completed_) {
+    map_filter_.Filter(open->points, &cloud->map_points);
+    registration_filter_.Filter(cloud->map_points, &cloud->registration_points);
+  } else {
+    // The start of motion is found by comparing the two halves of the first segment: each must keep
+    // its own points where the other has some, too.
+    first_completed_ = true;
+    const auto middle = std::stable_partition(
+        open->points.begin(), open->points.end(),
+        [](const SegmentPoint& point) { return point.alpha < 0.5F; });
+    std::vector<SegmentPoint> kept;
+    for (const auto& half : {std::vector<SegmentPoint>(open->points.begin(), middle),
+                             std::vector<SegmentPoint>(middle, open->points.end())}) {
+      map_filter_.Filter(half, &kept);
+      cloud->map_points.insert(cloud->map_points.end(), kept.begin(), kept.end());
+      const std::vector<SegmentPoint> fine = kept;
+      registration_filter_.Filter(fine, &kept);
+      cloud->registration_points.insert(cloud->registration_points.end(), kept.begin(), kept.end());
+    }
+  }
+  complete_.push_back(std::move(*cloud));
+}
+
+void Segmenter::Finish() { CompleteUntil(std::numeric_limits<std::int64_t>::max()); }
+
+std::optional<SegmentCloud> Segmenter::Next() {
+  if (complete_.empty()) return std::nullopt;
+  SegmentCloud cloud = std::move(complete_.front());
+  complete_.pop_front();
+  return cloud;
+}
+
+}  // namespace trajlo

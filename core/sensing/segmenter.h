@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "core/sensing/lidar_scan.h"
+#include "core/sensing/segment_cloud.h"
+#include "core/sensing/voxel_filter.h"
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+struct SegmenterOptions {
+  /// Length of the first segment, which fills the map (paper: 0.3 s).
+  double first_interval_s = 0.3;
+  /// Length of all others, the paper's Delta t.
+  double interval_s = 0.03;
+  double min_range_m = 0.5;
+  double max_range_m = 150.0;
+  /// At most one point per cell of this size and segment enters the map.
+  double map_voxel_m = 0.2;
+  /// At most one of those per cell of this size is registered.
+  double registration_voxel_m = 0.8;
+  /// A longer pause becomes one gap segment; shorter ones become empty segments.
+  double max_gap_s = 1.0;
+  /// A LiDAR that lags behind the others by more is not waited for.
+  double max_lag_s = 0.5;
+  /// Turns every ray of a scan up by this angle about the axis across it: the calibration error of
+  /// KITTI's HDL-64E is 0.205 degrees.
+  double vertical_correction_deg = 0.0;
+  /// One per LiDAR; LiDARs beyond the list have the identity.
+  std::vector<SE3> T_body_lidar;
+};
+
+/// Cuts the stream of scans into segments, whatever the length of a scan.
+///
+/// Segment 0 starts at the first point and lasts `first_interval_s`; the others follow without
+/// holes. A segment is handed out when every LiDAR has passed its end. Scans without point times
+/// (motion-corrected ones) become one segment each, from the previous stamp to their own, with
+/// alpha = 1 for every point: the discrete mode of the paper.
+class Segmenter {
+ public:
+  explicit Segmenter(const SegmenterOptions& options);
+
+  void AddScan(const LidarScan& scan);
+  /// No further scans: the segments still open are completed, the last one as far as it is filled.
+  void Finish();
+  /// The next complete segment, oldest first.
+  std::optional<SegmentCloud> Next();
+
+  const PointCounts& counts() const { return counts_; }
+
+ private:
+  struct Open {
+    SegmentCloud cloud;
+    std::vector<SegmentPoint> points;
+  };
+  void AddContinuous(const LidarScan& scan);
+  void AddDiscrete(const LidarScan& scan);
+  bool Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body);
+  Open& SegmentAt(std::int64_t t_ns);
+  void OpenNext(std::int64_t end_ns, bool is_gap);
+  void CompleteUntil(std::int64_t t_ns);
+  void Complete(Open* open);
+
+  SegmenterOptions options_;
+  PointCounts counts_;
+  VoxelFilter map_filter_;
+  VoxelFilter registration_filter_;
+  bool first_completed_ = false;
+  std::deque<Open> open_;
+  std::deque<SegmentCloud> complete_;
+  std::vector<std::int64_t> newest_ns_;  ///< Newest time of each LiDAR.
+  std::optional<std::int64_t> end_ns_;   ///< End of the newest open or completed segment.
+};
+
+}  // namespace trajlo

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "core/estimation/window_solver.h"
+
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <gtest/gtest.h>
+
+#include "factors/point_to_plane.h"
+#include "manifolds/se3_interpolation.h"
+#include "manifolds/se3_manifold.h"
+#include "tests/support/random_poses.h"
+
+namespace trajlo {
+namespace {
+
+using testing::Random;
+
+/// A window of four segments in a room of random planes, started a little off the truth.
+struct TestWindow {
+  WindowProblem problem;
+  std::vector<std::vector<RegistrationPoint>> storage;
+
+  explicit TestWindow(unsigned seed, int points_per_segment = 300) {
+    Random random(seed);
+    std::vector<SE3> truth = {random.Pose()};
+    Vector6d velocity = random.Tangent(0.05, 0.1);
+    for (int k = 0; k < 4; ++k) {
+      truth.push_back(Plus(truth.back(), velocity + random.Tangent(0.002, 0.003)));
+    }
+    storage.resize(4);
+    for (int k = 0; k < 4; ++k) {
+      for (int i = 0; i < points_per_segment; ++i) {
+        RegistrationPoint point;
+        point.p_body_m = random.Uniform(1, 20) * random.Direction();
+        point.alpha = random.Uniform(0, 1);
+        point.normal_world = random.Direction();
+        const double outlier = random.Uniform(0, 1) < 0.1 ? random.Uniform(-1, 1) : 0.0;
+        point.offset_m = point.normal_world.dot(
+                             Interpolate(truth[k], truth[k + 1], point.alpha) * point.p_body_m) +
+                         random.Gaussian(0.02) + outlier;
+        storage[k].push_back(point);
+      }
+      problem.smoothness.push_back({velocity, Vector6d::Constant(100.0)});
+    }
+    for (const auto& points : storage) problem.points.push_back(&points);
+    problem.prior = MakeAnchor(Plus(truth[0], random.Tangent(0.001, 0.002)), 0.01, 0.01);
+    problem.noise = {0.1, {KernelKind::kCauchy, 2.0}};
+    for (const SE3& pose : truth) {
+      problem.poses.push_back(Plus(pose, random.Tangent(0.01, 0.03)));
+    }
+  }
+};
+
+double LargestDifference(const std::vector<SE3>& a, const std::vector<SE3>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, Minus(a[i], b[i]).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+SolverOptions Converging(SolverKind kind) {
+  SolverOptions options;
+  options.kind = kind;
+  options.iterations_per_round = 60;
+  options.step_tolerance_m = options.step_tolerance_rad = 1e-11;
+  options.ceres.function_tolerance = 1e-16;
+  options.ceres.parameter_tolerance = 1e-14;
+  return options;
+}
+
+std::vector<SE3> Solve(const SolverOptions& options, unsigned seed, bool first_estimate = false) {
+  ThreadPool threads(2);
+  TestWindow window(seed);
+  window.problem.first_estimate_jacobians = first_estimate;
+  const SolveSummary summary = MakeWindowSolver(options, &threads)->Solve(&window.problem);
+  EXPECT_TRUE(summary.finite);
+  return window.problem.poses;
+}
+
+TEST(WindowSolver, CeresAndGaussNewtonEndAtTheSameOptimum) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto expected = Solve(Converging(SolverKind::kGaussNewton), seed);
+    EXPECT_LT(LargestDifference(Solve(Converging(SolverKind::kCeres), seed), expected), 1e-8);
+  }
+}
+
+TEST(WindowSolver, EveryLinearSolverAndTrustRegionOfCeresEndsThere) {
+  const auto expected = Solve(Converging(SolverKind::kGaussNewton), 11);
+  for (LinearSolverKind linear :
+       {LinearSolverKind::kDenseNormalCholesky, LinearSolverKind::kDenseQr,
+        LinearSolverKind::kSparseNormalCholesky, LinearSolverKind::kCgnr}) {
+    for (TrustRegionKind region :
+         {TrustRegionKind::kLevenbergMarquardt, TrustRegionKind::kDogleg}) {
+      if (linear == LinearSolverKind::kCgnr && region == TrustRegionKind::kDogleg) continue;
+      SolverOptions options = Converging(SolverKind::kCeres);
+      options.ceres.linear_solver = linear;
+      options.ceres.trust_region = region;
+      EXPECT_LT(LargestDifference(Solve(options, 11), expected), 1e-6)
+          << static_cast<int>(linear) << " " << static_cast<int>(region);
+    }
+  }
+}
+
+TEST(WindowSolver, OneCeresIterationIsOneGaussNewtonStep) {
+  for (bool first_estimate : {false, true}) {
+    SolverOptions options = Converging(SolverKind::kGaussNewton);
+    options.iterations_per_round = 1;
+    const auto expected = Solve(options, 12, first_estimate);
+    options.kind = SolverKind::kCeres;
+    EXPECT_LT(LargestDifference(Solve(options, 12, first_estimate), expected), 1e-6);
+  }
+}
+
+TEST(WindowSolver, CondensedSegmentsEndWhereOneBlockAPointDoes) {
+  TestWindow window(13, 60);
+  ThreadPool threads(1);
+  const std::vector<SE3> start = window.problem.poses;
+  window.problem.first_estimate_jacobians = false;
+  MakeWindowSolver(Converging(SolverKind::kCeres), &threads)->Solve(&window.problem);
+
+  SE3Manifold manifold;
+  RobustKernelLoss loss(window.problem.noise.kernel);
+  ceres::Problem::Options options;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem plain(options);
+  std::vector<SE3> poses = start;
+  for (SE3& pose : poses) plain.AddParameterBlock(pose.data(), 7, &manifold);
+  for (int k = 0; k < 4; ++k) {
+    for (const RegistrationPoint& point : window.storage[k]) {
+      plain.AddResidualBlock(new PointToPlaneCost(point, window.problem.noise.sigma_m), &loss,
+                             poses[k].data(), poses[k + 1].data());
+    }
+    plain.AddResidualBlock(new SmoothnessCost(window.problem.smoothness[k]), nullptr,
+                           poses[k].data(), poses[k + 1].data());
+  }
+  plain.AddResidualBlock(new MarginalizationPriorCost(window.problem.prior, false), nullptr,
+                         poses[0].data());
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.function_tolerance = 1e-16;
+  solver.parameter_tolerance = 1e-14;
+  solver.gradient_tolerance = 1e-14;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &plain, &summary);
+  EXPECT_LT(LargestDifference(window.problem.poses, poses), 1e-8);
+}
+
+TEST(WindowSolver, ResultsAreTheSameBitsForAnyNumberOfThreads) {
+  for (SolverKind kind : {SolverKind::kGaussNewton, SolverKind::kCeres}) {
+    TestWindow one(14, 2000), two(14, 2000);
+    ThreadPool one_thread(1), two_threads(2);
+    MakeWindowSolver(Converging(kind), &one_thread)->Solve(&one.problem);
+    MakeWindowSolver(Converging(kind), &two_threads)->Solve(&two.problem);
+    for (std::size_t i = 0; i < one.problem.poses.size(); ++i) {
+      EXPECT_EQ(one.problem.poses[i].q.coeffs(), two.problem.poses[i].q.coeffs());
+      EXPECT_EQ(one.problem.poses[i].t, two.problem.poses[i].t);
+    }
+  }
+}
+
+TEST(WindowSolver, ASegmentWithoutPointsIsCarriedBySmoothness) {
+  for (SolverKind kind : {SolverKind::kGaussNewton, SolverKind::kCeres}) {
+    TestWindow window(15);
+    ThreadPool threads(1);
+    window.storage[3].clear();
+    const SolveSummary summary =
+        MakeWindowSolver(Converging(kind), &threads)->Solve(&window.problem);
+    EXPECT_TRUE(summary.finite);
+    EXPECT_LT((Minus(window.problem.poses[4], window.problem.poses[3]) -
+               window.problem.smoothness[3].tau_expected).norm(), 1e-7);
+  }
+}
+
+TEST(WindowSolver, MarginalizingTheSolvedWindowBySchurAndByQrIsTheSame) {
+  TestWindow window(16);
+  ThreadPool threads(1);
+  MakeWindowSolver(Converging(SolverKind::kGaussNewton), &threads)->Solve(&window.problem);
+  std::vector<RegistrationNormalEquations> registration;
+  RegistrationEvaluator(&threads).Evaluate(window.problem, window.problem.poses, true,
+                                           &registration);
+  const auto schur = MarginalizeOldest(window.problem, registration[0], false);
+  const auto qr = MarginalizeOldest(window.problem, registration[0], true);
+  EXPECT_TRUE(schur.Information().isApprox(qr.Information(), 1e-8));
+  EXPECT_LT((schur.Gradient() - qr.Gradient()).norm(), 1e-6 * (1 + qr.Gradient().norm()));
+}
+
+TEST(WindowSolver, TheSmallerWindowWithThePriorHasItsOptimumWhereTheLargerOneHad) {
+  TestWindow window(17);
+  ThreadPool threads(1);
+  WindowProblem& problem = window.problem;
+  const SolverOptions options = Converging(SolverKind::kGaussNewton);
+  MakeWindowSolver(options, &threads)->Solve(&problem);
+  const std::vector<SE3> full = problem.poses;
+  std::vector<RegistrationNormalEquations> registration;
+  RegistrationEvaluator(&threads).Evaluate(problem, problem.poses, true, &registration);
+  problem.prior = MarginalizeOldest(problem, registration[0], false);
+  problem.poses.erase(problem.poses.begin());
+  problem.points.erase(problem.points.begin());
+  problem.smoothness.erase(problem.smoothness.begin());
+  MakeWindowSolver(options, &threads)->Solve(&problem);
+  EXPECT_LT(LargestDifference(problem.poses, {full.begin() + 1, full.end()}), 1e-8);
+}
+
+TEST(WindowCondition, NamesTheDirectionThatNoPlaneHolds) {
+  // A corridor along x: all normals are perpendicular to it.
+  TestWindow window(18);
+  window.problem.first_estimate_jacobians = false;
+  for (SE3& pose : window.problem.poses) pose = SE3();
+  for (auto& points : window.storage) {
+    for (RegistrationPoint& point : points) {
+      point.normal_world.x() = 0.0;
+      point.normal_world.normalize();
+    }
+  }
+  ThreadPool threads(1);
+  std::vector<RegistrationNormalEquations> registration;
+  RegistrationEvaluator(&threads).Evaluate(window.problem, window.problem.poses, true,
+                                           &registration);
+  const WindowCondition condition = ConditionOf(window.problem, registration);
+  EXPECT_NEAR(condition.smallest_eigenvalue, 0.0, 1e-9);
+  EXPECT_NEAR(std::abs(condition.weak_direction[0]), 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace trajlo
