@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <vector>
+
+#include "core/io/output_file.h"
+
+namespace trajlo {
+
+/// One point of a cloud to be written, metres.
+struct CloudPoint {
+  Eigen::Vector3f xyz_m = Eigen::Vector3f::Zero();
+  float intensity = 0.0F;
+};
+
+enum class CloudFields { kXyz, kXyzIntensity };
+
+/// Writes points as float32 in binary, as PCD or PLY (little endian) by the extension of `path`.
+/// The file appears under its name only when it is complete. Throws OutputError; also for
+/// another extension.
+void WritePointCloud(const std::filesystem::path& path, const std::vector<CloudPoint>& points,
+                     CloudFields fields = CloudFields::kXyzIntensity,
+                     IfExists if_exists = IfExists::kFail);
+
+}  // namespace trajlo

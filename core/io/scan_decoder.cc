@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/scan_decoder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "core/io/errors.h"
+
+namespace trajlo {
+namespace {
+
+constexpr const char* kTimeNames[] = {"t",
+                                      "time",
+                                      "timestamp",
+                                      "timestamps",
+                                      "offset_time",
+                                      "time_offset",
+                                      "ts",
+                                      "t_ns",
+                                      "time_ns",
+                                      "point_time",
+                                      "time_stamp",
+                                      "timestamp_ns",
+                                      "t_us",
+                                      "time_us",
+                                      "gps_time",
+                                      "gpstime",
+                                      "point_timestamp",
+                                      "deltatime",
+                                      "delta_time",
+                                      "time_offset_ns",
+                                      "offset_time_ns",
+                                      "stamp"};
+constexpr const char* kIntensityNames[] = {"intensity", "i",           "reflectivity",
+                                           "remission", "reflectance", "signal"};
+
+/// Points are converted field by field in blocks that stay in the cache.
+constexpr std::size_t kBlock = 4096;
+constexpr std::int64_t kNoTime = std::numeric_limits<std::int64_t>::min();
+
+template <std::size_t N>
+const Column* FindAny(const PointTable& table, const char* const (&names)[N]) {
+  for (const char* name : names) {
+    if (const Column* column = table.Find(name)) return column;
+  }
+  return nullptr;
+}
+
+struct PositionColumns {
+  const Column* axis[3];
+};
+
+PositionColumns FindPosition(const std::filesystem::path& path, const PointTable& table) {
+  const PositionColumns columns{{table.Find("x"), table.Find("y"), table.Find("z")}};
+  for (const Column* column : columns.axis) {
+    if (column != nullptr) continue;
+    throw InputError(path,
+                     "the fields x, y and z are sought, but the file has: " + table.FieldNames(),
+                     "Rename the fields of the file.");
+  }
+  return columns;
+}
+
+/// value * unit in ns; kNoTime if that is not a time.
+template <typename T>
+std::int64_t ToNs(T value, std::int64_t unit_ns) {
+  if constexpr (std::is_integral_v<T>) {
+    std::int64_t ns = 0;
+    if (__builtin_mul_overflow(value, unit_ns, &ns)) return kNoTime;
+    return ns;
+  } else {
+    // The whole part separately: 1.6e9 s in ns has more digits than a double.
+    const double limit = 9e18 / static_cast<double>(unit_ns);
+    const auto number = static_cast<double>(value);
+    if (!(number > -limit && number < limit)) return kNoTime;
+    const auto whole = static_cast<std::int64_t>(number);
+    const double rest = (number - static_cast<double>(whole)) * static_cast<double>(unit_ns);
+    return whole * unit_ns + static_cast<std::int64_t>(rest + (rest < 0.0 ? -0.5 : 0.5));
+  }
+}
+
+/// Farther than this from its scan, a time is a broken number.
+std::int64_t ReachNs(const TimeConvention& convention) {
+  return 1'000'000'000 + 10 * convention.sweep_ns;
+}
+
+/// The earliest of the raw times, which are absolute. One broken early time must not move it.
+std::optional<std::int64_t> EarliestTime(const TimeConvention& convention, const LidarScan& scan) {
+  std::vector<std::int64_t> times;
+  times.reserve(scan.points.size());
+  for (const LidarPoint& point : scan.points) {
+    if (point.t_ns != kNoTime && point.xyz_m.allFinite()) times.push_back(point.t_ns);
+  }
+  if (times.empty()) return {};
+  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+  const std::int64_t middle = times[times.size() / 2];
+  std::int64_t earliest = middle;
+  for (const std::int64_t t : times) {
+    std::int64_t before_middle = 0;
+    if (__builtin_sub_overflow(middle, t, &before_middle)) continue;
+    if (t < earliest && before_middle < ReachNs(convention)) earliest = t;
+  }
+  return earliest;
+}
+
+/// Moves raw times (ns since the file's zero) to the clock of the recording and disarms the
+/// impossible ones.
+std::size_t PlaceTimes(const TimeConvention& convention, std::int64_t stamp_ns, LidarScan* scan) {
+  const std::int64_t reach_ns = ReachNs(convention);
+  const std::int64_t zero_ns = convention.IsAbsolute() ? convention.clock_offset_ns
+                                                       : stamp_ns + convention.ZeroAfterStampNs();
+  std::size_t broken = 0;
+  for (LidarPoint& point : scan->points) {
+    std::int64_t t_ns = 0;
+    std::int64_t after_stamp_ns = 0;
+    const bool overflow = __builtin_add_overflow(point.t_ns, zero_ns, &t_ns) ||
+                          __builtin_sub_overflow(t_ns, stamp_ns, &after_stamp_ns);
+    if (point.t_ns != kNoTime && !overflow && after_stamp_ns < reach_ns &&
+        after_stamp_ns > -reach_ns) {
+      point.t_ns = t_ns;
+      continue;
+    }
+    if (point.xyz_m.allFinite()) ++broken;
+    point.t_ns = stamp_ns;
+    point.xyz_m.setConstant(std::numeric_limits<float>::quiet_NaN());
+  }
+  return broken;
+}
+
+}  // namespace
+
+const Column* FindTimeColumn(const PointTable& table, const std::string& wanted) {
+  return wanted.empty() ? FindAny(table, kTimeNames) : table.Find(wanted);
+}
+
+std::optional<TimeSample> SampleTimes(const PointTable& table, const Column& column) {
+  // NaN until proven otherwise: drivers write time 0 for directions without a return.
+  std::vector<float> size(table.count, 0.0F);
+  for (const char* axis : {"x", "y", "z"}) {
+    const Column* coordinate = table.Find(axis);
+    if (coordinate == nullptr) return {};
+    VisitColumn(table, *coordinate, 0, table.count,
+                [&](std::size_t i, auto value) { size[i] += std::abs(static_cast<float>(value)); });
+  }
+  std::optional<TimeSample> sample;
+  VisitColumn(table, column, 0, table.count, [&](std::size_t i, auto value) {
+    const auto time = static_cast<double>(value);
+    if (!(size[i] > 0.0F) || !std::isfinite(size[i]) || !std::isfinite(time)) return;
+    if (!sample) sample = TimeSample{time, time, {}};
+    sample->first = std::min(sample->first, time);
+    sample->last = std::max(sample->last, time);
+  });
+  return sample;
+}
+
+std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& table,
+                       const TimeConvention& convention, std::optional<std::int64_t> stamp_ns,
+                       LidarScan* scan) {
+  const PositionColumns position = FindPosition(path, table);
+  const Column* intensity = FindAny(table, kIntensityNames);
+  const Column* time =
+      convention.HasPointTimes() ? FindTimeColumn(table, convention.field) : nullptr;
+  const std::int64_t unit_ns = NanosecondsPer(convention.unit);
+  scan->has_point_times = time != nullptr;
+  scan->points.resize(table.count);
+  LidarPoint* points = scan->points.data();
+  for (std::size_t begin = 0; begin < table.count; begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, table.count);
+    for (int axis = 0; axis < 3; ++axis) {
+      VisitColumn(table, *position.axis[axis], begin, end, [&](std::size_t i, auto value) {
+        points[i].xyz_m[axis] = static_cast<float>(value);
+      });
+    }
+    if (intensity != nullptr) {
+      VisitColumn(table, *intensity, begin, end, [&](std::size_t i, auto value) {
+        points[i].intensity = static_cast<float>(value);
+      });
+    } else {
+      for (std::size_t i = begin; i < end; ++i) points[i].intensity = 0.0F;
+    }
+    if (time != nullptr) {
+      VisitColumn(table, *time, begin, end,
+                  [&](std::size_t i, auto value) { points[i].t_ns = ToNs(value, unit_ns); });
+    }
+  }
+  if (!stamp_ns && time != nullptr) stamp_ns = EarliestTime(convention, *scan);
+  if (!stamp_ns) {
+    throw InputError(path, "no point has a time, and the scan has no stamp", "");
+  }
+  scan->stamp_ns = *stamp_ns;
+  if (time != nullptr) return PlaceTimes(convention, *stamp_ns, scan);
+  for (LidarPoint& point : scan->points) point.t_ns = scan->stamp_ns;
+  return 0;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/scan_folder.h"
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <utility>
+
+#include "core/io/errors.h"
+#include "core/io/point_file.h"
+#include "core/io/scan_decoder.h"
+#include "core/io/stamp_text.h"
+
+namespace trajlo {
+namespace {
+
+/// The first scan of a recording is often partial: several are asked for their times.
+constexpr std::size_t kProbedScans = 5;
+
+[[noreturn]] void FailMissingTimeField(const std::filesystem::path& file, const PointTable& table,
+                                       const std::string& wanted) {
+  throw InputError(file,
+                   "time_field '" + wanted + "' is sought, but the file has: " + table.FieldNames(),
+                   "Set time_field to one of these, or leave it empty.");
+}
+
+std::string Milliseconds(std::int64_t ns) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.6g ms", 1e-6 * static_cast<double>(ns));
+  return text;
+}
+
+}  // namespace
+
+ScanFolder::ScanFolder(const std::filesystem::path& path, const ScanFolderOptions& options)
+    : options_(options), listing_(ListScans(path)) {
+  stamps_ = FindStamps(options_.stamps_file, &listing_);
+  report_.scans_listed = listing_.files.size();
+  report_.warnings = stamps_.warnings;
+  Probe();
+  if (stamps_.t_ns.empty() && !convention_.IsAbsolute()) SetRegularStamps();
+  Describe(path);
+  if (options_.read_ahead) StartNext({});
+}
+
+/// Decides the time convention from the first scans that can be read.
+void ScanFolder::Probe() {
+  TimeEvidence evidence;
+  evidence.period_s = TypicalPeriod(stamps_.t_ns);
+  std::size_t readable = 0;
+  std::string fields;
+  std::string first_problem;
+  for (std::size_t i = 0; i < listing_.files.size() && readable < kProbedScans; ++i) {
+    const std::filesystem::path& file = listing_.files[i];
+    PointTable table;
+    try {
+      table = ReadPointFile(file);
+      LidarScan scan;
+      DecodeScan(file, table, {}, 0, &scan);  // Throws if it has no positions.
+    } catch (const InputError& error) {
+      if (first_problem.empty()) first_problem = error.what();
+      continue;
+    }
+    ++readable;
+    if (fields.empty()) fields = table.FieldNames();
+    if (!options_.time.use_point_times || table.count == 0) continue;
+    const Column* column = FindTimeColumn(table, options_.time.field);
+    if (column == nullptr && !options_.time.field.empty()) {
+      FailMissingTimeField(file, table, options_.time.field);
+    }
+    if (column == nullptr || (!evidence.field.empty() && column->name != evidence.field)) continue;
+    evidence.path = file;
+    evidence.field = column->name;
+    evidence.type = column->type;
+    if (std::optional<TimeSample> sample = SampleTimes(table, *column)) {
+      if (!stamps_.t_ns.empty()) sample->stamp_ns = stamps_.t_ns[i];
+      evidence.samples.push_back(*sample);
+    }
+  }
+  if (readable == 0) {
+    throw InputError(listing_.folder,
+                     "none of the " + std::to_string(listing_.files.size()) +
+                         " scans can be read; the first says: " + first_problem,
+                     "");
+  }
+  if (!options_.time.use_point_times) {
+    convention_.evidence = "no point times: switched off by point_time none";
+  } else if (evidence.field.empty()) {
+    convention_.evidence = "no point times: none of the fields (" + fields + ") has a known name";
+  } else {
+    convention_ = DeduceTimeConvention(evidence, options_.time);
+  }
+}
+
+void ScanFolder::SetRegularStamps() {
+  // A sweep that differs clearly from the configured period knows better.
+  const double sweep_s = 1e-9 * static_cast<double>(convention_.sweep_ns);
+  double period_s = options_.scan_period_s;
+  if (convention_.HasPointTimes() && std::abs(sweep_s - period_s) > 0.2 * period_s) {
+    period_s = sweep_s;
+  }
+  stamps_.t_ns.resize(listing_.files.size());
+  for (std::size_t i = 0; i < stamps_.t_ns.size(); ++i) {
+    stamps_.t_ns[i] = std::llround(1e9 * period_s * static_cast<double>(i));
+  }
+  stamps_.source = "none found, so a scan every " + Milliseconds(std::llround(1e9 * period_s)) +
+                   " from 0 s is assumed";
+}
+
+void ScanFolder::Describe(const std::filesystem::path& path) {
+  description_ = path.string() + ": " + std::to_string(listing_.files.size()) + " scans (" +
+                 listing_.extension + ") in " + listing_.folder.string() + "\n";
+  const bool by_points = stamps_.t_ns.empty();
+  description_ += "stamps: " + (by_points ? "the earliest point of each scan" : stamps_.source);
+  if (!by_points) {
+    description_ += "; the first is " + FormatSeconds(stamps_.t_ns.front()) + " s, the last " +
+                    FormatSeconds(stamps_.t_ns.back()) + " s";
+  }
+  description_ += "\npoint times: " + convention_.evidence;
+  for (const std::string& note : listing_.notes) description_ += "\nnote: " + note;
+}
+
+ScanFolder::Outcome ScanFolder::Decode(std::size_t index, LidarScan reused) const {
+  Outcome outcome;
+  outcome.scan = std::move(reused);
+  const std::filesystem::path& file = listing_.files[index];
+  try {
+    const PointTable table = ReadPointFile(file);
+    outcome.damage = table.damage.empty() ? "" : file.string() + ": " + table.damage;
+    if (convention_.HasPointTimes() && FindTimeColumn(table, convention_.field) == nullptr) {
+      outcome.damage = file.string() + ": has no field '" + convention_.field +
+                       "', all its points get the stamp";
+    }
+    const auto stamp_ns =
+        stamps_.t_ns.empty() ? std::nullopt : std::optional<std::int64_t>(stamps_.t_ns[index]);
+    outcome.points_without_time = DecodeScan(file, table, convention_, stamp_ns, &outcome.scan);
+    outcome.scan.lidar_id = options_.lidar_id;
+    outcome.readable = true;
+  } catch (const std::exception& error) {
+    outcome.damage = error.what();
+  }
+  return outcome;
+}
+
+void ScanFolder::StartNext(LidarScan reused) {
+  if (next_ >= listing_.files.size()) return;
+  const auto policy = options_.read_ahead ? std::launch::async : std::launch::deferred;
+  ahead_ = std::async(policy, &ScanFolder::Decode, this, next_++, std::move(reused));
+}
+
+bool ScanFolder::Next(LidarScan* scan) {
+  if (!ahead_.valid()) StartNext({});
+  while (ahead_.valid()) {
+    Outcome outcome = ahead_.get();
+    if (!outcome.damage.empty()) report_.warnings.push_back(outcome.damage);
+    if (!outcome.readable) {
+      ++report_.scans_skipped;
+      StartNext(std::move(outcome.scan));
+      continue;
+    }
+    std::swap(*scan, outcome.scan);
+    if (options_.read_ahead) StartNext(std::move(outcome.scan));
+    ++report_.scans_read;
+    report_.scans_damaged += outcome.damage.empty() ? 0 : 1;
+    report_.points_read += scan->points.size();
+    report_.points_without_time += outcome.points_without_time;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace trajlo

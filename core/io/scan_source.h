@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/sensing/lidar_scan.h"
+
+namespace trajlo {
+
+/// What happened so far while a recording was read.
+struct ReadReport {
+  std::size_t scans_listed = 0;
+  /// Handed on, whole or in part.
+  std::size_t scans_read = 0;
+  /// Handed on in part.
+  std::size_t scans_damaged = 0;
+  /// Nothing could be read.
+  std::size_t scans_skipped = 0;
+  std::size_t points_read = 0;
+  /// Points among them that were disarmed (position NaN) because their time was impossible.
+  std::size_t points_without_time = 0;
+  /// One sentence each, with file and numbers.
+  std::vector<std::string> warnings;
+
+  /// True if the result rests on a part of the input only: exit code 3.
+  bool IsPartial() const { return scans_damaged + scans_skipped > 0; }
+};
+
+/// A recording of one LiDAR, scan by scan.
+class ScanSource {
+ public:
+  virtual ~ScanSource() = default;
+
+  /// Fills `scan` with the next scan and reuses its memory; false at the end.
+  virtual bool Next(LidarScan* scan) = 0;
+  /// Scans that the recording lists, broken ones included.
+  virtual std::size_t size() const = 0;
+  /// What is read and how it is understood (stamps, times), to be printed; several lines.
+  virtual const std::string& description() const = 0;
+  virtual const ReadReport& report() const = 0;
+};
+
+}  // namespace trajlo

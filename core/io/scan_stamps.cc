@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/scan_stamps.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "core/io/ascii_table.h"
+#include "core/io/errors.h"
+#include "core/io/file_bytes.h"
+#include "core/io/stamp_text.h"
+
+namespace trajlo {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStampFiles[] = {"timestamps.txt", "times.txt", "stamps.txt",
+                                       "timestamp.txt"};
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
+bool AllDigits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+std::string_view Trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+/// The last run of digits of a name, with one '.' or '_' between digits: "cloud_12_034" ->
+/// "12_034".
+std::string_view StampPart(std::string_view stem) {
+  const std::size_t last = stem.find_last_of("0123456789");
+  if (last == std::string_view::npos) return {};
+  const std::size_t before = stem.find_last_not_of("0123456789._", last);
+  std::string_view part = stem.substr(before == std::string_view::npos ? 0 : before + 1, last + 1);
+  part = part.substr(0, stem.data() + last + 1 - part.data());
+  part.remove_prefix(std::min(part.find_first_of("0123456789"), part.size()));
+  return part;
+}
+
+/// A file name that is a stamp: 1583836591.182590976, 1583836591182590976, 1583836591_182590976.
+/// Short whole numbers are indices, not stamps.
+std::optional<std::int64_t> StampOfName(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::string_view part = StampPart(stem);
+  if (AllDigits(part)) {
+    const auto unit_ns = UnitOfWholeStampNs(part);
+    return part.size() > 10 && unit_ns ? ParseDecimalNs(part, *unit_ns) : std::nullopt;
+  }
+  const std::size_t split = part.find_first_of("._");
+  if (split == std::string_view::npos) return {};
+  const std::string_view seconds = part.substr(0, split);
+  const std::string_view rest = part.substr(split + 1);
+  if (!AllDigits(seconds) || !AllDigits(rest)) return {};
+  if (part[split] == '.') {
+    return rest.size() >= 3 ? ParseDecimalNs(part, kNsPerSecond) : std::nullopt;
+  }
+  // ROS tools write seconds and nanoseconds as two whole numbers, often without leading zeros.
+  if (seconds.size() != 10 || rest.size() > 9) return {};
+  return *ParseDecimalNs(seconds, kNsPerSecond) + *ParseDecimalNs(rest, 1);
+}
+
+ScanStamps StampsOfNames(ScanListing* listing) {
+  std::vector<std::pair<std::int64_t, fs::path>> stamped;
+  for (const fs::path& file : listing->files) {
+    const auto stamp = StampOfName(file);
+    if (!stamp) return {};
+    stamped.emplace_back(*stamp, file);
+  }
+  // "9.5" comes before "10.25" in time, whatever the order of the names.
+  std::sort(stamped.begin(), stamped.end());
+  ScanStamps stamps;
+  stamps.source = "the file names";
+  for (std::size_t i = 0; i < stamped.size(); ++i) {
+    stamps.t_ns.push_back(stamped[i].first);
+    listing->files[i] = stamped[i].second;
+  }
+  return stamps;
+}
+
+std::optional<std::size_t> IndexOfName(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  std::size_t index = 0;
+  const auto [stop, error] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
+  if (error != std::errc() || stop != stem.data() + stem.size()) return {};
+  return index;
+}
+
+/// The line of each scan when there are more stamps than scans: KITTI's raw recordings keep the
+/// stamps of scans that are missing, and their names say which.
+std::vector<std::size_t> LinesOfScans(const ScanListing& listing, std::size_t stamp_count) {
+  std::vector<std::size_t> lines;
+  for (const fs::path& file : listing.files) {
+    const auto index = IndexOfName(file);
+    if (!index || *index >= stamp_count) break;
+    lines.push_back(*index);
+  }
+  if (lines.size() != listing.files.size()) {
+    lines.resize(listing.files.size());
+    std::iota(lines.begin(), lines.end(), std::size_t{0});
+  }
+  return lines;
+}
+
+fs::path FindStampsFile(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path absolute = fs::absolute(folder, ignored).lexically_normal();
+  // A trailing slash would make the folder its own parent.
+  const fs::path clean = absolute.has_filename() ? absolute : absolute.parent_path();
+  for (const fs::path& place : {clean, clean.parent_path()}) {
+    for (const char* name : kStampFiles) {
+      if (fs::is_regular_file(place / name, ignored)) return place / name;
+    }
+  }
+  return {};
+}
+
+void WarnIfNotIncreasing(ScanStamps* stamps) {
+  std::size_t backward = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < stamps->t_ns.size(); ++i) {
+    if (stamps->t_ns[i] > stamps->t_ns[i - 1]) continue;
+    if (backward++ == 0) first = i;
+  }
+  if (backward == 0) return;
+  stamps->warnings.push_back(
+      stamps->source + ": " + std::to_string(backward) +
+      " stamps are not later than the one before; the first is that of scan " +
+      std::to_string(first) + ", " + FormatSeconds(stamps->t_ns[first]) + " after " +
+      FormatSeconds(stamps->t_ns[first - 1]));
+}
+
+}  // namespace
+
+std::vector<std::int64_t> ReadStampsFile(const fs::path& path) {
+  const FileBytes bytes = ReadFileBytes(path);
+  std::string_view text = bytes.view();
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  std::vector<std::int64_t> stamps;
+  std::string_view line;
+  for (std::size_t number = 1; TakeLine(&text, &line); ++number) {
+    const std::string_view stamp = Trim(line);
+    if (stamp.empty() || stamp.front() == '#') continue;
+    const std::int64_t unit_ns =
+        AllDigits(stamp) ? UnitOfWholeStampNs(stamp).value_or(0) : kNsPerSecond;
+    auto t_ns = unit_ns > 0 ? ParseDecimalNs(stamp, unit_ns) : std::nullopt;
+    if (!t_ns) t_ns = ParseDateTimeNs(stamp);
+    if (!t_ns) {
+      throw InputError(path,
+                       "line " + std::to_string(number) + " is no stamp: '" +
+                           std::string(stamp.substr(0, 60)) + "'",
+                       "Write one stamp a line: seconds, nanoseconds, or "
+                       "YYYY-MM-DD hh:mm:ss.nnnnnnnnn.");
+    }
+    stamps.push_back(*t_ns);
+  }
+  return stamps;
+}
+
+ScanStamps FindStamps(const fs::path& stamps_file, ScanListing* listing) {
+  const fs::path file = stamps_file.empty() ? FindStampsFile(listing->folder) : stamps_file;
+  if (file.empty()) return StampsOfNames(listing);
+
+  const std::vector<std::int64_t> lines = ReadStampsFile(file);
+  const std::size_t scans = listing->files.size();
+  if (lines.size() < scans) {
+    throw InputError(file,
+                     std::to_string(lines.size()) + " stamps for " + std::to_string(scans) +
+                         " scans in " + listing->folder.string(),
+                     "Complete the stamps file, or take out the scans that it does not cover.");
+  }
+  ScanStamps stamps;
+  stamps.source = file.filename().string();
+  for (const std::size_t line : LinesOfScans(*listing, lines.size())) {
+    stamps.t_ns.push_back(lines[line]);
+  }
+  if (lines.size() > scans) {
+    stamps.warnings.push_back(stamps.source + ": " + std::to_string(lines.size()) + " stamps for " +
+                              std::to_string(scans) + " scans; scan " +
+                              listing->files.back().filename().string() + " gets " +
+                              FormatSeconds(stamps.t_ns.back()));
+  }
+  WarnIfNotIncreasing(&stamps);
+  return stamps;
+}
+
+double TypicalPeriod(const std::vector<std::int64_t>& t_ns) {
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < t_ns.size(); ++i) {
+    if (t_ns[i] > t_ns[i - 1]) steps.push_back(t_ns[i] - t_ns[i - 1]);
+  }
+  if (steps.empty()) return 0.0;
+  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
+  return 1e-9 * static_cast<double>(steps[steps.size() / 2]);
+}
+
+}  // namespace trajlo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/scan_listing.h"
+
+namespace trajlo {
+
+/// The stamps of the scans, one for each file of a listing.
+struct ScanStamps {
+  /// Empty: neither a stamps file nor file names tell them.
+  std::vector<std::int64_t> t_ns;
+  /// "timestamps.txt", "the file names", ...
+  std::string source;
+  /// Things that look wrong, to be printed.
+  std::vector<std::string> warnings;
+};
+
+/// Reads one stamp a line: seconds as decimal text (also 1.03e-01), whole numbers of s, ms, us or
+/// ns by their size, or date and time. Blank lines and lines that begin with # are skipped.
+/// Throws InputError with the line's number when a line is none of these.
+std::vector<std::int64_t> ReadStampsFile(const std::filesystem::path& path);
+
+/// Finds the stamps of the listed scans in `stamps_file` if that is given, else in timestamps.txt
+/// or times.txt beside the scans or one level up, else in the file names (the listing is then
+/// sorted by them). With more stamps than scans, names that are whole numbers pick their line.
+/// Throws InputError if there are fewer stamps than scans.
+ScanStamps FindStamps(const std::filesystem::path& stamps_file, ScanListing* listing);
+
+/// The median of the steps between stamps that are positive, s; 0 if there are none.
+double TypicalPeriod(const std::vector<std::int64_t>& t_ns);
+
+}  // namespace trajlo

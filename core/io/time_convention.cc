@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/time_convention.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/io/errors.h"
+
+namespace trajlo {
+namespace {
+
+constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
+                               TimeUnit::kNanoseconds};
+/// Bounds what a wrong unit given by the user can do.
+constexpr double kLongestSweep = 1000.0;
+constexpr char kMend[] =
+    "Say it with time_unit (s, ms, us, ns) and time_origin (start, stamp, end, absolute), name "
+    "another time_field, or set point_time to none for motion-corrected scans.";
+
+std::string Number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.9g", value);
+  return text;
+}
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// The evidence of several scans in a few numbers, in the file's unit.
+struct Summary {
+  double first = 0.0, last = 0.0, span = 0.0, largest = 0.0;
+};
+
+Summary Summarise(const std::vector<TimeSample>& samples) {
+  std::vector<double> firsts, lasts, spans;
+  Summary summary;
+  for (const TimeSample& sample : samples) {
+    firsts.push_back(sample.first);
+    lasts.push_back(sample.last);
+    spans.push_back(sample.last - sample.first);
+    summary.largest = std::max({summary.largest, std::abs(sample.first), std::abs(sample.last)});
+  }
+  summary.first = Median(firsts);
+  summary.last = Median(lasts);
+  summary.span = Median(spans);
+  return summary;
+}
+
+std::string Describe(const TimeEvidence& evidence, const Summary& summary) {
+  std::string text = "field '" + evidence.field + "' (" + NameOf(evidence.type) + ") runs from " +
+                     Number(summary.first) + " to " + Number(summary.last) + " in a scan";
+  text += evidence.period_s > 0.0 ? ", stamps are " + Number(evidence.period_s) + " s apart"
+                                  : std::string(", there are no stamps to compare with");
+  return text;
+}
+
+bool Float32LostTheTime(const TimeEvidence& evidence, const Summary& summary) {
+  if (evidence.type != ScalarType::kFloat32 || summary.largest == 0.0) return false;
+  const auto largest = static_cast<float>(summary.largest);
+  const double step = std::nextafter(largest, INFINITY) - largest;
+  return summary.span < 1000.0 * step && summary.largest > 1000.0 * summary.span;
+}
+
+/// The units are a factor of 1000 apart and the window is only 100 wide, so at most one fits.
+TimeUnit DeduceUnit(const TimeEvidence& evidence, const Summary& summary) {
+  const double shortest_s = evidence.period_s > 0.0 ? 0.05 * evidence.period_s : 0.005;
+  const double longest_s = 100.0 * shortest_s;
+  std::string readings;
+  for (const TimeUnit unit : kUnits) {
+    const double span_s = summary.span * 1e-9 * static_cast<double>(NanosecondsPer(unit));
+    if (span_s >= shortest_s && span_s <= longest_s) return unit;
+    readings += (readings.empty() ? "" : ", ") + Number(span_s) + " s if in " + NameOf(unit);
+  }
+  throw InputError(evidence.path,
+                   "ambiguous point times: " + Describe(evidence, summary) +
+                       "; a sweep would take " + readings + ", and none of these lies between " +
+                       Number(shortest_s) + " and " + Number(longest_s) + " s",
+                   kMend);
+}
+
+/// True if zero lies within the sweep or close to one of its ends, in every scan.
+bool IsRelative(const std::vector<TimeSample>& samples, double span) {
+  return std::all_of(samples.begin(), samples.end(), [&](const TimeSample& sample) {
+    return sample.first >= -1.25 * span && sample.last <= 1.25 * span;
+  });
+}
+
+TimeOrigin RelativeOrigin(const Summary& summary) {
+  if (summary.first >= -0.1 * summary.span) return TimeOrigin::kSweepStart;
+  if (summary.last <= 0.1 * summary.span) return TimeOrigin::kSweepEnd;
+  return TimeOrigin::kStamp;
+}
+
+/// Settles which clock absolute times belong to, by their distance from the stamps.
+void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeConvention* found) {
+  const auto unit_ns = static_cast<double>(NanosecondsPer(found->unit));
+  const auto fail = [&](const std::string& why) {
+    throw InputError(evidence.path,
+                     "ambiguous point times: " + Describe(evidence, summary) + "; in " +
+                         NameOf(found->unit) + " they are neither " +
+                         "relative to the scan nor one running clock: " + why,
+                     kMend);
+  };
+  std::vector<double> stamp_after_first_ns, stamp_after_last_ns;
+  for (std::size_t k = 0; k < evidence.samples.size(); ++k) {
+    const TimeSample& sample = evidence.samples[k];
+    if (k > 0 && sample.first <= evidence.samples[k - 1].first) {
+      fail("scan " + std::to_string(k) + " begins at " + Number(sample.first) +
+           ", not after the one before it");
+    }
+    if (!sample.stamp_ns) continue;
+    const auto stamp_ns = static_cast<double>(*sample.stamp_ns);
+    stamp_after_first_ns.push_back(stamp_ns - sample.first * unit_ns);
+    stamp_after_last_ns.push_back(stamp_ns - sample.last * unit_ns);
+  }
+  if (stamp_after_first_ns.empty()) {
+    found->evidence += "; the times are absolute and give the stamps";
+    return;
+  }
+  const auto [least, most] =
+      std::minmax_element(stamp_after_first_ns.begin(), stamp_after_first_ns.end());
+  const double span_ns = summary.span * unit_ns;
+  if (*most - *least > std::max(span_ns, 0.5e9 * evidence.period_s)) {
+    fail("their distance from the stamps changes by " + Number((*most - *least) * 1e-9) + " s");
+  }
+  const double after_first_ns = Median(stamp_after_first_ns);
+  const double after_last_ns = Median(stamp_after_last_ns);
+  const bool at_end = std::abs(after_last_ns) < std::abs(after_first_ns);
+  if (std::abs(after_first_ns) < 1e9 || std::abs(after_last_ns) < 1e9) {
+    if (found->stamp_at == StampAt::kAuto) {
+      found->stamp_at = at_end ? StampAt::kEnd : StampAt::kStart;
+    }
+    found->evidence += "; the times are absolute, the stamp comes " +
+                       Number(after_first_ns * 1e-9) + " s after the first point and " +
+                       Number(after_last_ns * 1e-9) + " s after the last";
+    return;
+  }
+  const bool stamp_is_last = found->stamp_at == StampAt::kEnd;
+  found->clock_offset_ns =
+      static_cast<std::int64_t>(stamp_is_last ? after_last_ns : after_first_ns);
+  found->evidence += "; the times are of another clock than the stamps, " +
+                     Number(static_cast<double>(found->clock_offset_ns) * 1e-9) +
+                     " s are added so that the stamp marks the " +
+                     (stamp_is_last ? "last" : "first") + " point";
+}
+
+std::string OriginText(const TimeConvention& found) {
+  const std::string stamp = found.stamp_at == StampAt::kEnd ? "end" : "start";
+  switch (found.origin) {
+    case TimeOrigin::kSweepStart:
+      return "counted from the sweep's start, stamp at its " + stamp;
+    case TimeOrigin::kSweepEnd:
+      return "counted from the sweep's end, stamp at its " + stamp;
+    case TimeOrigin::kStamp:
+      return "counted from the stamp, which lies inside the sweep";
+    default:
+      return "absolute";
+  }
+}
+
+}  // namespace
+
+std::int64_t TimeConvention::ZeroAfterStampNs() const {
+  if (origin == TimeOrigin::kSweepStart && stamp_at == StampAt::kEnd) return -sweep_ns;
+  if (origin == TimeOrigin::kSweepEnd && stamp_at == StampAt::kStart) return sweep_ns;
+  return 0;
+}
+
+TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOptions& options) {
+  TimeConvention found;
+  if (evidence.samples.empty()) {
+    found.evidence = "no point times: no scan at the beginning has a point";
+    return found;
+  }
+  const Summary summary = Summarise(evidence.samples);
+  if (Float32LostTheTime(evidence, summary)) {
+    throw InputError(evidence.path,
+                     Describe(evidence, summary) +
+                         "; a float32 of that size cannot tell the points "
+                         "of a sweep apart, so their times are lost",
+                     "Write the times again as float64 or relative to the scan, or set point_time "
+                     "to none.");
+  }
+  if (summary.span == 0.0) {
+    found.evidence = "no point times: field '" + evidence.field + "' is " + Number(summary.first) +
+                     " for all points of a scan";
+    return found;
+  }
+  found.field = evidence.field;
+  found.unit = options.unit == TimeUnit::kAuto ? DeduceUnit(evidence, summary) : options.unit;
+  found.stamp_at = options.stamp_at;
+  const double span_s = summary.span * 1e-9 * static_cast<double>(NanosecondsPer(found.unit));
+  // A scan's span misses its last firing and a gap hides its period: take the period if they agree.
+  const bool period_fits = std::abs(span_s - evidence.period_s) < 0.15 * span_s;
+  const double sweep_s = period_fits ? evidence.period_s : span_s;
+  found.sweep_ns = std::llround(1e9 * std::min(sweep_s, kLongestSweep));
+  found.evidence = Describe(evidence, summary) + "; in " + NameOf(found.unit) + " a sweep takes " +
+                   Number(span_s) + " s";
+  if (options.origin != TimeOrigin::kAuto) {
+    found.origin = options.origin;
+  } else if (IsRelative(evidence.samples, summary.span)) {
+    found.origin = RelativeOrigin(summary);
+  } else {
+    found.origin = TimeOrigin::kAbsolute;
+    CompareClocks(evidence, summary, &found);
+  }
+  if (found.stamp_at == StampAt::kAuto) {
+    found.stamp_at = found.origin == TimeOrigin::kSweepEnd ? StampAt::kEnd : StampAt::kStart;
+  }
+  found.evidence += "; " + OriginText(found);
+  return found;
+}
+
+}  // namespace trajlo

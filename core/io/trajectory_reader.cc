@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/trajectory_reader.h"
+
+#include <array>
+#include <charconv>
+#include <string_view>
+
+#include "core/io/ascii_table.h"
+#include "core/io/errors.h"
+#include "core/io/file_bytes.h"
+#include "core/io/stamp_text.h"
+
+namespace trajlo {
+namespace {
+
+enum class LineKind { kPose, kUnusable, kMalformed };
+
+bool ParseNumber(std::string_view word, double* value) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, *value);
+  return error == std::errc() && stop == end;
+}
+
+LineKind ParseLine(std::string_view line, StampedPose* pose) {
+  const std::string_view stamp = TakeWord(&line);
+  std::array<double, 7> values{};
+  for (double& value : values) {
+    if (!ParseNumber(TakeWord(&line), &value)) return LineKind::kMalformed;
+  }
+  if (!TakeWord(&line).empty()) return LineKind::kMalformed;
+  const auto t_ns = ParseDecimalNs(stamp, 1'000'000'000);
+  double stamp_number = 0.0;
+  if (!t_ns) return ParseNumber(stamp, &stamp_number) ? LineKind::kUnusable : LineKind::kMalformed;
+
+  pose->t_ns = *t_ns;
+  pose->T_world_body.t = Eigen::Vector3d(values[0], values[1], values[2]);
+  pose->T_world_body.q = Eigen::Quaterniond(values[6], values[3], values[4], values[5]);
+  if (!pose->T_world_body.IsFinite() || pose->T_world_body.q.norm() < 1e-6) {
+    return LineKind::kUnusable;
+  }
+  pose->T_world_body.q.normalize();
+  return LineKind::kPose;
+}
+
+}  // namespace
+
+std::vector<StampedPose> ReadTum(const std::filesystem::path& path,
+                                 std::vector<std::string>* warnings) {
+  const FileBytes bytes = ReadFileBytes(path);
+  std::string_view text = bytes.view();
+  const bool ends_with_line = !text.empty() && text.back() == '\n';
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  std::vector<StampedPose> poses;
+  const auto warn = [&](std::size_t number, const char* what) {
+    if (warnings == nullptr) return;
+    warnings->push_back(path.string() + ": line " + std::to_string(number) + " " + what);
+  };
+  std::string_view line;
+  for (std::size_t number = 1; TakeLine(&text, &line); ++number) {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos || line[begin] == '#') continue;
+    StampedPose pose;
+    const LineKind kind = ParseLine(line, &pose);
+    if (kind == LineKind::kPose) {
+      poses.push_back(pose);
+    } else if (kind == LineKind::kUnusable) {
+      warn(number, "is skipped: a number is not finite or the quaternion is zero");
+    } else if (text.empty() && !ends_with_line) {
+      warn(number, "is skipped: it is incomplete, as after an interrupted recording");
+    } else {
+      throw InputError(path, "line " + std::to_string(number) + " is not 'stamp x y z qx qy qz qw'",
+                       "A TUM trajectory has eight numbers a line, separated by blanks.");
+    }
+  }
+  return poses;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+/// The pose of the body in the world at a time.
+struct StampedPose {
+  std::int64_t t_ns = 0;
+  SE3 T_world_body;
+};
+
+/// Reads a trajectory in TUM's format, poses in the order of the file, quaternions normalised.
+/// Blank lines and lines that begin with # are skipped; columns are separated by blanks or tabs.
+/// Skipped with a warning: lines with a number that is not finite or a quaternion that is zero,
+/// and an incomplete last line without a line end (an interrupted recording).
+/// Everything else that is not eight numbers throws InputError with the line's number.
+std::vector<StampedPose> ReadTum(const std::filesystem::path& path,
+                                 std::vector<std::string>* warnings = nullptr);
+
+}  // namespace trajlo

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/time_convention.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/io/errors.h"
+#include "core/io/scan_decoder.h"
+
+namespace trajlo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr double kEpoch = 1.6e9;  // s
+
+/// Five scans of a 10 Hz LiDAR. Scan k is measured in [0.1 k, 0.1 k + 0.0999] s after the epoch;
+/// its time field runs from first_s to last_s in the given unit, both moved by k * step_s.
+TimeEvidence FiveScans(double unit_per_second, double first_s, double last_s, double step_s,
+                       bool stamps, ScalarType type = ScalarType::kFloat64) {
+  TimeEvidence evidence;
+  evidence.path = "scan.pcd";
+  evidence.field = "t";
+  evidence.type = type;
+  evidence.period_s = stamps ? 0.1 : 0.0;
+  for (int k = 0; k < 5; ++k) {
+    TimeSample sample;
+    sample.first = (first_s + k * step_s) * unit_per_second;
+    sample.last = (last_s + k * step_s) * unit_per_second;
+    if (stamps) sample.stamp_ns = std::llround(1e9 * kEpoch) + k * 100'000'000LL;
+    evidence.samples.push_back(sample);
+  }
+  return evidence;
+}
+
+struct Unit {
+  const char* name;
+  double per_second;
+  TimeUnit unit;
+};
+
+class EveryUnit : public testing::TestWithParam<std::tuple<Unit, bool>> {
+ protected:
+  double per_second() const { return std::get<0>(GetParam()).per_second; }
+  TimeUnit unit() const { return std::get<0>(GetParam()).unit; }
+  bool stamps() const { return std::get<1>(GetParam()); }
+};
+
+TEST_P(EveryUnit, TimesFromZeroToASweepAreRelativeToTheStart) {
+  const auto found = DeduceTimeConvention(FiveScans(per_second(), 0, 0.0999, 0, stamps()), {});
+  EXPECT_EQ(found.unit, unit());
+  EXPECT_EQ(found.origin, TimeOrigin::kSweepStart);
+  EXPECT_EQ(found.stamp_at, StampAt::kStart);
+  EXPECT_EQ(found.ZeroAfterStampNs(), 0);
+}
+
+TEST_P(EveryUnit, NegativeTimesCountBackFromAStampAtTheEnd) {
+  const auto found = DeduceTimeConvention(FiveScans(per_second(), -0.0999, 0, 0, stamps()), {});
+  EXPECT_EQ(found.unit, unit());
+  EXPECT_EQ(found.origin, TimeOrigin::kSweepEnd);
+  EXPECT_EQ(found.stamp_at, StampAt::kEnd);
+  EXPECT_EQ(found.ZeroAfterStampNs(), 0);
+}
+
+TEST_P(EveryUnit, TimesAroundZeroAreRelativeToAStampInsideTheSweep) {
+  const auto found = DeduceTimeConvention(FiveScans(per_second(), -0.05, 0.05, 0, stamps()), {});
+  EXPECT_EQ(found.unit, unit());
+  EXPECT_EQ(found.origin, TimeOrigin::kStamp);
+  EXPECT_EQ(found.ZeroAfterStampNs(), 0);
+}
+
+TEST_P(EveryUnit, TimesSince1970AreAbsolute) {
+  const auto found =
+      DeduceTimeConvention(FiveScans(per_second(), kEpoch, kEpoch + 0.0999, 0.1, stamps()), {});
+  EXPECT_EQ(found.unit, unit());
+  EXPECT_TRUE(found.IsAbsolute());
+  EXPECT_EQ(found.clock_offset_ns, 0);
+}
+
+TEST_P(EveryUnit, AClockThatRunsOnFromTheFirstScanIsAbsolute) {
+  const auto found = DeduceTimeConvention(FiveScans(per_second(), 0, 0.0999, 0.1, stamps()), {});
+  EXPECT_EQ(found.unit, unit());
+  EXPECT_TRUE(found.IsAbsolute());
+  if (stamps()) {
+    EXPECT_NEAR(static_cast<double>(found.clock_offset_ns), 1e9 * kEpoch, 1e3);
+    EXPECT_THAT(found.evidence, HasSubstr("another clock"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Units, EveryUnit,
+                         testing::Combine(testing::Values(Unit{"s", 1, TimeUnit::kSeconds},
+                                                          Unit{"ms", 1e3, TimeUnit::kMilliseconds},
+                                                          Unit{"us", 1e6, TimeUnit::kMicroseconds},
+                                                          Unit{"ns", 1e9, TimeUnit::kNanoseconds}),
+                                          testing::Bool()),
+                         [](const auto& param) {
+                           return std::string(std::get<0>(param.param).name) +
+                                  (std::get<1>(param.param) ? "WithStamps" : "WithoutStamps");
+                         });
+
+TEST(TimeConvention, AbsoluteTimesTellWhichEndTheStampMarks) {
+  const auto found = DeduceTimeConvention(FiveScans(1, kEpoch - 0.0999, kEpoch, 0.1, true), {});
+  EXPECT_TRUE(found.IsAbsolute());
+  EXPECT_EQ(found.stamp_at, StampAt::kEnd);
+}
+
+TEST(TimeConvention, GapsInTheStampsDoNotHideTheUnit) {
+  TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
+  evidence.period_s = 0.4;
+  const auto found = DeduceTimeConvention(evidence, {});
+  EXPECT_EQ(found.unit, TimeUnit::kSeconds);
+  EXPECT_EQ(found.sweep_ns, 99'900'000);
+}
+
+TEST(TimeConvention, ThePeriodIsTheSweepWhenBothAgree) {
+  EXPECT_EQ(DeduceTimeConvention(FiveScans(1, 0, 0.0999, 0, true), {}).sweep_ns, 100'000'000);
+}
+
+TEST(TimeConvention, APartialFirstScanDoesNotMislead) {
+  TimeEvidence evidence = FiveScans(1e9, 0, 0.0999, 0, true);
+  evidence.samples[0].last = 2e6;
+  EXPECT_EQ(DeduceTimeConvention(evidence, {}).unit, TimeUnit::kNanoseconds);
+}
+
+TEST(TimeConvention, ASpanThatIsASweepInNoUnitIsAnErrorThatShowsTheEvidence) {
+  try {
+    DeduceTimeConvention(FiveScans(1, 0, 2, 0, true), {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr("ambiguous"), HasSubstr("from 0 to 2"), HasSubstr("0.1 s apart"),
+                      HasSubstr("2 s if in s, 0.002 s if in ms"), HasSubstr("time_unit")));
+  }
+}
+
+TEST(TimeConvention, TimesThatAreNeitherRelativeNorAClockAreAnError) {
+  // Always 5.0 to 5.1: zero is far outside the sweep, and the clock does not run.
+  EXPECT_THROW(DeduceTimeConvention(FiveScans(1, 5.0, 5.0999, 0, true), {}), InputError);
+  // A clock that runs ten times too fast.
+  EXPECT_THROW(DeduceTimeConvention(FiveScans(1, 5.0, 5.0999, 1.0, true), {}), InputError);
+}
+
+TEST(TimeConvention, AbsoluteSecondsInFloat32AreRefusedBecauseTheyAreLost) {
+  TimeEvidence evidence = FiveScans(1, kEpoch, kEpoch, 0, true, ScalarType::kFloat32);
+  for (const double span : {0.0, 128.0}) {
+    for (TimeSample& sample : evidence.samples) sample.last = sample.first + span;
+    try {
+      DeduceTimeConvention(evidence, {});
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("float32 of that size cannot tell"));
+    }
+  }
+}
+
+TEST(TimeConvention, RelativeNanosecondsInFloat32AreFine) {
+  const auto found =
+      DeduceTimeConvention(FiveScans(1e9, 0, 0.0999, 0, true, ScalarType::kFloat32), {});
+  EXPECT_EQ(found.unit, TimeUnit::kNanoseconds);
+}
+
+TEST(TimeConvention, AFieldThatIsTheSameForAllPointsMeansNoPointTimes) {
+  const auto found = DeduceTimeConvention(FiveScans(1, 0, 0, 0, true), {});
+  EXPECT_FALSE(found.HasPointTimes());
+  EXPECT_THAT(found.evidence, HasSubstr("no point times"));
+}
+
+TEST(TimeConvention, EveryPartCanBeOverridden) {
+  TimeOptions options;
+  options.unit = TimeUnit::kMilliseconds;
+  options.origin = TimeOrigin::kSweepStart;
+  options.stamp_at = StampAt::kEnd;
+  const auto found = DeduceTimeConvention(FiveScans(1, 0, 30, 0, true), options);
+  EXPECT_EQ(found.unit, TimeUnit::kMilliseconds);
+  EXPECT_EQ(found.ZeroAfterStampNs(), -30'000'000);
+}
+
+TEST(TimeConvention, AStampAtTheEndMovesTimesBackByASweep) {
+  TimeOptions options;
+  options.stamp_at = StampAt::kEnd;
+  const auto found = DeduceTimeConvention(FiveScans(1e9, 0, 0.0999, 0, true), options);
+  EXPECT_EQ(found.origin, TimeOrigin::kSweepStart);
+  EXPECT_EQ(found.ZeroAfterStampNs(), -100'000'000);
+}
+
+TEST(TimeConvention, ANegativeTimeWithAStampAtTheStartIsMovedForward) {
+  TimeOptions options;
+  options.stamp_at = StampAt::kStart;
+  const auto found = DeduceTimeConvention(FiveScans(1e9, -0.0999, 0, 0, true), options);
+  EXPECT_EQ(found.ZeroAfterStampNs(), 100'000'000);
+}
+
+TEST(TimeConvention, ItsWordsAreParsed) {
+  EXPECT_EQ(ParseTimeUnit("us"), TimeUnit::kMicroseconds);
+  EXPECT_EQ(ParseTimeUnit("auto"), TimeUnit::kAuto);
+  EXPECT_EQ(ParseTimeUnit("hours"), std::nullopt);
+  EXPECT_EQ(ParseTimeOrigin("absolute"), TimeOrigin::kAbsolute);
+  EXPECT_EQ(ParseTimeOrigin(""), std::nullopt);
+  EXPECT_EQ(ParseStampAt("end"), StampAt::kEnd);
+  EXPECT_EQ(ParseStampAt("middle"), std::nullopt);
+}
+
+/// A table of doubles with the columns x, y, z, t.
+PointTable TableOf(const std::vector<std::array<double, 4>>& rows) {
+  PointTable table;
+  table.count = rows.size();
+  table.bytes = FileBytes(rows.size() * sizeof(rows[0]));
+  std::memcpy(table.bytes.data(), rows.data(), table.bytes.size());
+  std::size_t offset = 0;
+  for (const char* name : {"x", "y", "z", "t"}) {
+    table.columns.push_back({name, ScalarType::kFloat64, offset, sizeof(rows[0]), false});
+    offset += sizeof(double);
+  }
+  return table;
+}
+
+TEST(ScanDecoder, PointsWithoutAReturnAreNoEvidence) {
+  const PointTable table =
+      TableOf({{0, 0, 0, -77}, {NAN, 1, 1, -88}, {1, 2, 3, 0.01}, {1, 2, 3, NAN}, {1, 2, 3, 0.05}});
+  const auto sample = SampleTimes(table, *table.Find("t"));
+  ASSERT_TRUE(sample.has_value());
+  EXPECT_EQ(sample->first, 0.01);
+  EXPECT_EQ(sample->last, 0.05);
+}
+
+TEST(ScanDecoder, APointWithAnImpossibleTimeIsDisarmedAndCounted) {
+  TimeConvention convention;
+  convention.field = "t";
+  convention.sweep_ns = 100'000'000;
+  LidarScan scan;
+  const std::size_t broken = DecodeScan(
+      "a.pcd", TableOf({{1, 2, 3, 0.05}, {1, 2, 3, NAN}, {1, 2, 3, 1e30}, {1, 2, 3, -86400}}),
+      convention, 7'000'000'000, &scan);
+  EXPECT_EQ(broken, 3U);
+  EXPECT_EQ(scan.points[0].t_ns, 7'050'000'000);
+  EXPECT_TRUE(scan.points[0].xyz_m.allFinite());
+  for (int i = 1; i < 4; ++i) {
+    EXPECT_EQ(scan.points[i].t_ns, scan.stamp_ns);
+    EXPECT_TRUE(std::isnan(scan.points[i].xyz_m.x()));
+  }
+}
+
+TEST(ScanDecoder, PointsThatAreNaNKeepTheirTime) {
+  TimeConvention convention;
+  convention.field = "t";
+  convention.sweep_ns = 100'000'000;
+  LidarScan scan;
+  EXPECT_EQ(DecodeScan("a.pcd", TableOf({{NAN, NAN, NAN, 0.05}}), convention, 0, &scan), 0U);
+  EXPECT_EQ(scan.points.at(0).t_ns, 50'000'000);
+}
+
+TEST(ScanDecoder, AbsoluteDoubleSecondsLoseNothingBeyondTheDouble) {
+  TimeConvention convention;
+  convention.field = "t";
+  convention.origin = TimeOrigin::kAbsolute;
+  convention.sweep_ns = 100'000'000;
+  LidarScan scan;
+  // 1.6e9 + 1/1024 is exact in a double.
+  DecodeScan("a.pcd", TableOf({{1, 2, 3, 1.6e9 + 1.0 / 1024}, {1, 2, 3, 1.6e9}}), convention, {},
+             &scan);
+  EXPECT_EQ(scan.points[0].t_ns, 1'600'000'000'000'976'563);
+  EXPECT_EQ(scan.stamp_ns, 1'600'000'000'000'000'000);
+}
+
+TEST(ScanDecoder, OneBrokenEarlyTimeDoesNotMoveTheStamp) {
+  TimeConvention convention;
+  convention.field = "t";
+  convention.origin = TimeOrigin::kAbsolute;
+  convention.sweep_ns = 100'000'000;
+  LidarScan scan;
+  EXPECT_EQ(
+      DecodeScan("a.pcd", TableOf({{1, 2, 3, 0}, {1, 2, 3, 1.6e9}, {1, 2, 3, 1.6e9 + 0.0625}}),
+                 convention, {}, &scan),
+      1U);
+  EXPECT_EQ(scan.stamp_ns, 1'600'000'000'000'000'000);
+}
+
+}  // namespace
+}  // namespace trajlo
