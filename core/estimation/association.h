@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/map/plane_fit.h"
+#include "core/map/map_pyramid.h"
 #include "core/parallel/parallel_for.h"
 #include "core/sensing/segment_cloud.h"
 #include "factors/registration_point.h"
@@ -30,7 +30,7 @@ class SegmentAssociation {
   /// Associates every point at its own time on T_begin..T_end. `renew` also looks up again the
   /// points that found no plane before (the map may have grown since).
   Counts Associate(const std::vector<SegmentPoint>& points, const SE3& T_begin, const SE3& T_end,
-                   const PointMap& map, const AssociationOptions& options, double threshold_m,
+                   const MapPyramid& map, const AssociationOptions& options, double threshold_m,
                    bool renew, ThreadPool* threads);
 
   /// The associated points, in the order of the segment's points.
@@ -40,7 +40,6 @@ class SegmentAssociation {
   struct Entry {
     Eigen::Vector3d looked_up_at;
     Plane plane;
-    float distance_m;
     enum class State : unsigned char { kNew, kNone, kPlane } state = State::kNew;
   };
   std::vector<Entry> entries_;

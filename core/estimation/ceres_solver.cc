@@ -12,20 +12,22 @@ namespace {
 /// Computes the registration of all segments before Ceres asks the blocks for it.
 class PrepareRegistration final : public ceres::EvaluationCallback {
  public:
-  PrepareRegistration(const WindowProblem* problem, RegistrationEvaluator* evaluator)
+  PrepareRegistration(const WindowProblem* problem, RegistrationEvaluator* evaluator,
+                      std::vector<RegistrationNormalEquations>* equations)
       : problem_(problem),
         evaluator_(evaluator),
-        blocks_(problem->poses.size()),
-        equations_(problem->points.size()) {
+        equations_(equations),
+        blocks_(problem->poses.size()) {
+    equations_->resize(problem->points.size());
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       std::copy_n(problem->poses[i].data(), 7, blocks_[i].data());
     }
   }
 
-  void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override {
-    if (!new_evaluation_point && (have_jacobians_ || !evaluate_jacobians)) return;
-    evaluator_->Evaluate(*problem_, Poses(), evaluate_jacobians, &equations_);
-    have_jacobians_ = evaluate_jacobians;
+  /// Always with Jacobians: Ceres asks for the cost of a step first and, as nearly every step is
+  /// accepted, for the Jacobians at the same point next.
+  void PrepareForEvaluation(bool, bool new_evaluation_point) override {
+    if (new_evaluation_point) evaluator_->Evaluate(*problem_, Poses(), true, equations_);
   }
 
   std::vector<SE3> Poses() const {
@@ -35,14 +37,13 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
   }
 
   double* block(int k) { return blocks_[static_cast<std::size_t>(k)].data(); }
-  const RegistrationNormalEquations* equations(int k) const { return &equations_[k]; }
+  const RegistrationNormalEquations* equations(int k) const { return &(*equations_)[k]; }
 
  private:
   const WindowProblem* problem_;
   RegistrationEvaluator* evaluator_;
+  std::vector<RegistrationNormalEquations>* equations_;
   std::vector<std::array<double, 7>> blocks_;
-  std::vector<RegistrationNormalEquations> equations_;
-  bool have_jacobians_ = false;
 };
 
 ceres::Solver::Options MakeSolverOptions(const SolverOptions& options) {
@@ -86,7 +87,7 @@ CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
     : solver_options_(MakeSolverOptions(options)), evaluator_(threads) {}
 
 SolveSummary CeresSolver::Solve(WindowProblem* problem) {
-  PrepareRegistration prepare(problem, &evaluator_);
+  PrepareRegistration prepare(problem, &evaluator_, &registration_);
   SE3Manifold manifold;
   ceres::Problem::Options problem_options;
   problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -122,6 +123,8 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
   if (!summary.finite) return summary;
   MeasureStep(problem->poses, solution, &summary);
   problem->poses = solution;
+  // After a rejected step the last evaluation was elsewhere.
+  if (ceres_summary.iterations.back().step_is_successful) summary.registration = &registration_;
 
   summary.cost.prior = 0.5 * problem->prior.Residual(solution[0]).squaredNorm();
   for (int k = 0; k < problem->segments(); ++k) {

@@ -19,6 +19,7 @@ class CeresSolver final : public WindowSolver {
  private:
   ceres::Solver::Options solver_options_;
   RegistrationEvaluator evaluator_;
+  std::vector<RegistrationNormalEquations> registration_;
 };
 
 }  // namespace trajlo

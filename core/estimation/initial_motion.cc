@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "factors/segment_registration.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -23,18 +24,19 @@ constexpr double kPriorSigmaRad = 2.0;
 class Hypothesis {
  public:
   Hypothesis(const SegmentCloud& cloud, const std::vector<SegmentPoint>& second_half,
-             const Vector6d& tau, const MapOptions& map_options,
+             const Vector6d& tau, const MapPyramidOptions& map_options,
              const AssociationOptions& association, ThreadPool* threads)
       : T_end_(se3::Exp(tau)), points_(static_cast<double>(second_half.size())) {
+    const PointInterpolator to_start(SE3(), T_end_);
     std::vector<Eigen::Vector3d> first_half;
     for (const SegmentPoint& point : cloud.map_points) {
       if (point.alpha >= 0.5F) continue;
-      first_half.push_back(se3::Exp(point.alpha * tau) * point.p_body_m.cast<double>());
+      first_half.push_back(to_start(point.alpha, point.p_body_m.cast<double>()));
     }
-    const std::unique_ptr<PointMap> map = MakePointMap(map_options);
-    map->Insert(first_half);
-    planes_.Associate(second_half, SE3(), T_end_, *map, association, map_options.voxel_size_m, true,
-                      threads);
+    MapPyramid map(map_options);
+    map.Insert(first_half);
+    planes_.Associate(second_half, SE3(), T_end_, map, association, map_options.finest.voxel_size_m,
+                      true, threads);
   }
 
   RegistrationNormalEquations Linearize(const RegistrationNoise& noise) const {
@@ -44,10 +46,11 @@ class Hypothesis {
   /// Share of the second half's points that lie within kAgreementM of a plane.
   double Agreement() const {
     int agreeing = 0;
-    const Vector6d tau = se3::Log(T_end_);
+    const PointInterpolator to_start(SE3(), T_end_);
     for (const RegistrationPoint& point : planes_.registration_points()) {
-      const Eigen::Vector3d p_world = se3::Exp(point.alpha * tau) * point.p_body_m;
-      agreeing += std::abs(point.normal_world.dot(p_world) - point.offset_m) < kAgreementM;
+      const double distance_m =
+          point.normal_world.dot(to_start(point.alpha, point.p_body_m)) - point.offset_m;
+      agreeing += std::abs(distance_m) < kAgreementM;
     }
     return agreeing / points_;
   }
@@ -60,7 +63,7 @@ class Hypothesis {
 
 }  // namespace
 
-InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapOptions& map_options,
+InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
                                     const AssociationOptions& association,
                                     const WeightOptions& weights, ThreadPool* threads) {
   std::vector<SegmentPoint> second_half;
@@ -69,8 +72,8 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapOptions&
   }
   InitialMotion motion;
   if (second_half.empty()) return motion;
-  MapOptions hash = map_options;
-  hash.kind = MapKind::kVoxelHash;
+  MapPyramidOptions hash = map_options;
+  hash.finest.kind = MapKind::kVoxelHash;
 
   Vector6d prior = Vector6d::Constant(1.0 / (kPriorSigmaM * kPriorSigmaM));
   prior.tail<3>().setConstant(1.0 / (kPriorSigmaRad * kPriorSigmaRad));
@@ -78,8 +81,8 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapOptions&
   for (int round = 0; round < kRounds && !converged; ++round) {
     // 4, 4, 2, 2, 1, 1, ... times the map's voxels, plane thickness and kernel.
     const double coarse = std::max(1.0, 4.0 / (1 << (round / 2)));
-    MapOptions coarse_map = hash;
-    coarse_map.voxel_size_m *= coarse;
+    MapPyramidOptions coarse_map = hash;
+    coarse_map.finest.voxel_size_m *= coarse;
     AssociationOptions coarse_association = association;
     coarse_association.plane.max_thickness_m *= coarse;
     const Hypothesis hypothesis(cloud, second_half, motion.tau, coarse_map, coarse_association,

@@ -20,7 +20,7 @@ struct InitialMotion {
 /// its first half, which move with the same tau. A wrong tau blurs the first half by a third of
 /// what it displaces the second, so each round leaves about a third of the error. The voxels start
 /// coarse and shrink. `weights` gives the robust kernel.
-InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapOptions& map_options,
+InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
                                     const AssociationOptions& association,
                                     const WeightOptions& weights, ThreadPool* threads);
 

@@ -7,6 +7,7 @@
 
 #include "core/estimation/initial_motion.h"
 #include "core/estimation/sliding_window.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -34,8 +35,8 @@ class Odometry::Impl {
       : options_(options),
         threads_(options.threads),
         segmenter_(options.segmenter),
-        map_(MakePointMap(options.map)),
-        window_(options, map_.get(), &threads_) {}
+        map_(options.map),
+        window_(options, &map_, &threads_) {}
 
   void AddScan(const LidarScan& scan) {
     Stopwatch watch;
@@ -55,7 +56,7 @@ class Odometry::Impl {
   OdometryOptions options_;
   ThreadPool threads_;
   Segmenter segmenter_;
-  std::unique_ptr<PointMap> map_;
+  MapPyramid map_;
   SlidingWindow window_;
   Trajectory trajectory_;
   std::function<void(const WindowStatistics&)> callback_;
@@ -114,7 +115,7 @@ class Odometry::Impl {
     const SlidingWindow::Left left = window_.Marginalize();
     const double marginalize_ms = watch.Milliseconds();
     AddToMap(left.cloud, left.T_begin, left.T_end);
-    map_->RemoveFar(left.T_end.t);
+    map_.RemoveFar(left.T_end.t);
     return {marginalize_ms, watch.Milliseconds()};
   }
 
@@ -128,18 +129,17 @@ class Odometry::Impl {
   }
 
   void AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end) {
-    const Vector6d tau = Minus(T_end, T_begin);
+    const PointInterpolator to_world(T_begin, T_end);
     points_world_.resize(cloud.map_points.size());
     constexpr std::size_t kChunk = 512;
     threads_.ParallelFor((points_world_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
       const std::size_t last = std::min(points_world_.size(), (chunk + 1) * kChunk);
       for (std::size_t i = chunk * kChunk; i < last; ++i) {
         const SegmentPoint& point = cloud.map_points[i];
-        points_world_[i] =
-            T_begin * (se3::Exp(point.alpha * tau) * point.p_body_m.cast<double>());
+        points_world_[i] = to_world(point.alpha, point.p_body_m.cast<double>());
       }
     });
-    map_->Insert(points_world_);
+    map_.Insert(points_world_);
   }
 
   void WatchForLoss(WindowStatistics* statistics) {
@@ -170,7 +170,7 @@ void Odometry::OnWindow(std::function<void(const WindowStatistics&)> callback) {
   impl_->callback_ = std::move(callback);
 }
 const Trajectory& Odometry::trajectory() const { return impl_->trajectory_; }
-const PointMap& Odometry::map() const { return *impl_->map_; }
+const MapPyramid& Odometry::map() const { return impl_->map_; }
 const PointCounts& Odometry::point_counts() const { return impl_->segmenter_.counts(); }
 std::optional<std::int64_t> Odometry::lost_at_ns() const { return impl_->lost_at_ns_; }
 

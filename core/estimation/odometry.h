@@ -8,7 +8,7 @@
 #include "core/estimation/association.h"
 #include "core/estimation/solver_options.h"
 #include "core/estimation/window_statistics.h"
-#include "core/map/point_map.h"
+#include "core/map/map_pyramid.h"
 #include "core/sensing/segmenter.h"
 #include "core/trajectory/trajectory.h"
 
@@ -44,7 +44,7 @@ struct LostOptions {
 /// Everything that the estimator can be told, by module.
 struct OdometryOptions {
   SegmenterOptions segmenter;
-  MapOptions map;
+  MapPyramidOptions map;
   AssociationOptions association;
   AdaptiveThresholdOptions threshold;
   WeightOptions weights;
@@ -80,7 +80,7 @@ class Odometry {
 
   /// The control poses that have left the window (all of them after Finish).
   const Trajectory& trajectory() const;
-  const PointMap& map() const;
+  const MapPyramid& map() const;
   const PointCounts& point_counts() const;
   /// When the estimator got lost, if it did (sticky).
   std::optional<std::int64_t> lost_at_ns() const;

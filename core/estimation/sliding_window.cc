@@ -16,7 +16,7 @@ double MillisecondsSince(Clock::time_point start) {
 
 }  // namespace
 
-SlidingWindow::SlidingWindow(const OdometryOptions& options, const PointMap* map,
+SlidingWindow::SlidingWindow(const OdometryOptions& options, const MapPyramid* map,
                              ThreadPool* threads)
     : options_(options),
       map_(map),
@@ -55,6 +55,7 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
   statistics.kernel_m = KernelWidth();
   bool converged = false;
   bool finite = true;
+  const std::vector<RegistrationNormalEquations>* registration_at_solution = nullptr;
   while (statistics.rounds < options_.solver.max_rounds && !converged && finite) {
     const Clock::time_point associate_start = Clock::now();
     const auto counts = AssociateAll(statistics.rounds == 0);
@@ -74,6 +75,7 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
     statistics.last_step_m = summary.step_m;
     statistics.last_step_rad = summary.step_rad;
     finite = summary.finite;
+    registration_at_solution = summary.registration;
     converged = summary.step_m < options_.solver.step_tolerance_m &&
                 summary.step_rad < options_.solver.step_tolerance_rad;
   }
@@ -94,9 +96,12 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
   if (segments_.back().association.registration_points().empty()) {
     statistics.flags |= kFlagNoPoints;
   }
-  std::vector<RegistrationNormalEquations> registration;
-  evaluator_.Evaluate(problem_, problem_.poses, true, &registration);
-  const WindowCondition condition = ConditionOf(problem_, registration);
+  if (registration_at_solution != nullptr && !(statistics.flags & kFlagReverted)) {
+    registration_ = *registration_at_solution;
+  } else {
+    evaluator_.Evaluate(problem_, problem_.poses, true, &registration_);
+  }
+  const WindowCondition condition = ConditionOf(problem_, registration_);
   statistics.smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics.weak_direction = condition.weak_direction;
   if (condition.smallest_eigenvalue < options_.lost.degenerate_eigenvalue) {
@@ -150,7 +155,8 @@ void SlidingWindow::BuildProblem() {
     term.sqrt_information.head<3>().setConstant(1.0 / weights.smoothness_sigma_translation_m);
     term.sqrt_information.tail<3>().setConstant(1.0 / weights.smoothness_sigma_rotation_rad);
     if (weights.smoothness_scales_with_points) {
-      const auto points = static_cast<double>(problem_.points.back()->size());
+      double points = 0.0;
+      for (const RegistrationPoint& point : *problem_.points.back()) points += point.weight;
       term.sqrt_information *= std::sqrt(std::max(points, 1.0));
     }
     problem_.smoothness.push_back(term);
@@ -158,13 +164,10 @@ void SlidingWindow::BuildProblem() {
 }
 
 SlidingWindow::Left SlidingWindow::Marginalize() {
-  std::vector<RegistrationNormalEquations> registration;
-  BuildProblem();
-  evaluator_.Evaluate(problem_, problem_.poses, true, &registration);
   const MarginalizationOptions& marginalization = options_.marginalization;
   MarginalizationPrior prior =
       marginalization.enabled
-          ? MarginalizeOldest(problem_, registration[0], marginalization.use_qr)
+          ? MarginalizeOldest(problem_, registration_.front(), marginalization.use_qr)
           : MakeAnchor(problem_.poses[1], marginalization.anchor_sigma_translation_m,
                        marginalization.anchor_sigma_rotation_rad);
 
@@ -177,6 +180,9 @@ SlidingWindow::Left SlidingWindow::Marginalize() {
   segments_.pop_front();
   expected_velocity_.erase(expected_velocity_.begin());
   problem_.poses.erase(problem_.poses.begin());
+  problem_.points.erase(problem_.points.begin());
+  problem_.smoothness.erase(problem_.smoothness.begin());
+  registration_.erase(registration_.begin());
   problem_.prior = prior;
   return left;
 }

@@ -14,7 +14,7 @@ namespace trajlo {
 class SlidingWindow {
  public:
   /// `map` and `threads` must outlive the window.
-  SlidingWindow(const OdometryOptions& options, const PointMap* map, ThreadPool* threads);
+  SlidingWindow(const OdometryOptions& options, const MapPyramid* map, ThreadPool* threads);
 
   /// Begins with a single control pose, held by the anchor, moving at `velocity` ([rho; theta] per
   /// second, body frame).
@@ -47,7 +47,7 @@ class SlidingWindow {
   double KernelWidth() const;
 
   const OdometryOptions& options_;
-  const PointMap* map_;
+  const MapPyramid* map_;
   ThreadPool* threads_;
   std::unique_ptr<WindowSolver> solver_;
   RegistrationEvaluator evaluator_;
@@ -58,6 +58,7 @@ class SlidingWindow {
   std::int64_t front_ns_ = 0;
   unsigned front_flags_ = 0;
   WindowProblem problem_;  ///< Holds the poses and the prior between solves.
+  std::vector<RegistrationNormalEquations> registration_;  ///< At the poses of problem_.
 };
 
 }  // namespace trajlo

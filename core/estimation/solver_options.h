@@ -26,8 +26,9 @@ struct WeightOptions {
   double max_kernel_m = 0.5;
   double smoothness_sigma_translation_m = 0.12;
   double smoothness_sigma_rotation_rad = 0.1;
-  /// Divides both smoothness sigmas by the root of the segment's associated points, so that the
-  /// balance between geometry and motion does not depend on the density of the sensor.
+  /// Divides both smoothness sigmas by the root of the summed weights of the segment's associated
+  /// points, so that the balance between geometry and motion does not depend on the density of the
+  /// sensor.
   bool smoothness_scales_with_points = true;
 };
 

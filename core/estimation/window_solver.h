@@ -14,6 +14,9 @@ struct SolveSummary {
   double step_m = 0.0;    ///< Largest translation of a control pose from start to solution.
   double step_rad = 0.0;  ///< Largest rotation.
   bool finite = true;     ///< False: the poses are those of the start.
+  /// The linearised registration at the solution, where the solver happens to have it (Ceres does);
+  /// valid until the next solve.
+  const std::vector<RegistrationNormalEquations>* registration = nullptr;
 };
 
 /// Solves a window with fixed associations. Both solvers minimise the same energy through the same

@@ -38,12 +38,12 @@ KdTreeMap::KdTreeMap(const MapOptions& options)
 
 KdTreeMap::~KdTreeMap() = default;
 
-void KdTreeMap::Insert(const std::vector<Eigen::Vector3d>& points_world) {
-  std::vector<Eigen::Vector3d> accepted;
-  for (const Eigen::Vector3d& point : points_world) {
-    if (store_.InsertPoint(point)) accepted.push_back(point);
-  }
-  index_->Add(accepted);
+void KdTreeMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
+                       std::vector<Eigen::Vector3d>* accepted) {
+  std::vector<Eigen::Vector3d> added;
+  store_.Insert(points_world, &added);
+  index_->Add(added);
+  if (accepted != nullptr) accepted->insert(accepted->end(), added.begin(), added.end());
 }
 
 void KdTreeMap::RemoveFar(const Eigen::Vector3d& center_world) {

@@ -15,7 +15,8 @@ class KdTreeMap final : public PointMap {
   explicit KdTreeMap(const MapOptions& options);
   ~KdTreeMap() override;
 
-  void Insert(const std::vector<Eigen::Vector3d>& points_world) override;
+  void Insert(const std::vector<Eigen::Vector3d>& points_world,
+              std::vector<Eigen::Vector3d>* accepted = nullptr) override;
   void RemoveFar(const Eigen::Vector3d& center_world) override;
   void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const override;
   std::size_t size() const override { return store_.size(); }

@@ -7,7 +7,8 @@
 
 namespace trajlo {
 
-bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, Plane* plane) {
+bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, double spacing_m,
+              Plane* plane) {
   const int n = neighbors.count;
   if (n < options.min_neighbors) return false;
   double sx = 0, sy = 0, sz = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
@@ -35,10 +36,12 @@ bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, Plane*
   eigen.computeDirect(covariance);
   plane->thickness_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
   plane->width_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
-  if (plane->width_m < options.min_width_m || plane->thickness_m > options.max_thickness_m ||
+  if (plane->width_m < options.min_width_in_spacings * spacing_m || plane->thickness_m > options.max_thickness_m ||
       plane->thickness_m > options.max_flatness * plane->width_m) {
     return false;
   }
+  const double relative = plane->thickness_m / options.half_weight_thickness_m;
+  plane->weight = 1.0 / (1.0 + relative * relative);
   plane->normal_world = eigen.eigenvectors().col(0);
   plane->offset_m =
       plane->normal_world.dot(neighbors.origin_world + Eigen::Vector3d(ox, oy, oz) + mean);

@@ -15,10 +15,12 @@ struct PlaneFitOptions {
   int min_neighbors = 5;
   /// Upper bound of l0: how thick a plane may be.
   double max_thickness_m = 0.15;
-  /// Lower bound of l1: neighbours on one scan line have no normal.
-  double min_width_m = 0.08;
+  /// Lower bound of l1, in spacings of the map's points: neighbours on one scan line have no normal.
+  double min_width_in_spacings = 0.53;
   /// Upper bound of l0 / l1.
   double max_flatness = 0.5;
+  /// A plane of this thickness weighs half as much as a thin one.
+  double half_weight_thickness_m = 0.05;
 };
 
 /// The plane normalᵀ x = offset in the world frame.
@@ -27,9 +29,13 @@ struct Plane {
   double offset_m;
   double thickness_m;  ///< l0
   double width_m;      ///< l1
+  /// Relative information of a distance to it, in (0, 1].
+  double weight = 1.0;
 };
 
 /// The plane through the neighbours by principal component analysis; false when they make none.
-bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, Plane* plane);
+/// `spacing_m` is the least distance between points of the map.
+bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, double spacing_m,
+              Plane* plane);
 
 }  // namespace trajlo

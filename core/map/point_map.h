@@ -14,11 +14,11 @@ enum class MapKind { kVoxelHash, kKdTree };
 struct MapOptions {
   MapKind kind = MapKind::kVoxelHash;
   /// Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).
-  double voxel_size_m = 0.8;
+  double voxel_size_m = 0.4;
   int max_points_per_voxel = 20;
   /// A point nearer than this to another of its voxel is not added: otherwise a sensor at rest
   /// fills the voxels with copies of the same rings, and planes are fitted to scan lines.
-  double min_point_spacing_m = 0.15;
+  double min_point_spacing_m = 0.08;
   /// Voxels farther than this from the sensor are dropped.
   double radius_m = 100.0;
 };
@@ -41,8 +41,10 @@ class PointMap {
  public:
   virtual ~PointMap() = default;
 
-  /// Adds points in the given order, each if its voxel has room and no point too near.
-  virtual void Insert(const std::vector<Eigen::Vector3d>& points_world) = 0;
+  /// Adds points in the given order, each if its voxel has room and no point too near. Those added
+  /// are appended to `accepted` unless it is null.
+  virtual void Insert(const std::vector<Eigen::Vector3d>& points_world,
+                      std::vector<Eigen::Vector3d>* accepted = nullptr) = 0;
   /// Drops what is farther than `radius_m` from `center_world`.
   virtual void RemoveFar(const Eigen::Vector3d& center_world) = 0;
   /// The `k` <= kMaxNeighbors nearest points that the map can find around `query_world`.

@@ -115,8 +115,11 @@ bool VoxelHashMap::InsertPoint(const Eigen::Vector3d& point_world) {
   return true;
 }
 
-void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world) {
-  for (const Eigen::Vector3d& point : points_world) InsertPoint(point);
+void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
+                          std::vector<Eigen::Vector3d>* accepted) {
+  for (const Eigen::Vector3d& point : points_world) {
+    if (InsertPoint(point) && accepted != nullptr) accepted->push_back(point);
+  }
 }
 
 void VoxelHashMap::RemoveFar(const Eigen::Vector3d& center_world) {

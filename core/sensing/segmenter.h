@@ -20,9 +20,9 @@ struct SegmenterOptions {
   double min_range_m = 0.5;
   double max_range_m = 150.0;
   /// At most one point per cell of this size and segment enters the map.
-  double map_voxel_m = 0.2;
+  double map_voxel_m = 0.1;
   /// At most one of those per cell of this size is registered.
-  double registration_voxel_m = 0.8;
+  double registration_voxel_m = 0.4;
   /// A longer pause becomes one gap segment; shorter ones become empty segments.
   double max_gap_s = 1.0;
   /// A LiDAR that lags behind the others by more is not waited for.

@@ -149,6 +149,19 @@ TEST(Interpolation, MeetsItsEndsAndMovesWithConstantTwist) {
   EXPECT_LT(Minus(Interpolate(quarter, end, 1.0 / 3), Interpolate(begin, end, 0.5)).norm(), 1e-14);
 }
 
+TEST(Interpolation, OfPointsIsThatOfPoses) {
+  Random random(10);
+  for (double angle : DelicateAngles()) {
+    const SE3 begin = random.Pose();
+    const SE3 end = Plus(begin, random.Tangent(std::min(angle, 3.1), 1.0));
+    const PointInterpolator interpolator(begin, end);
+    for (double alpha : {0.0, 0.2, 0.7, 1.0}) {
+      const Eigen::Vector3d p = 50.0 * random.Direction();
+      EXPECT_LT((interpolator(alpha, p) - Interpolate(begin, end, alpha) * p).norm(), 1e-12);
+    }
+  }
+}
+
 TEST(Interpolation, JacobiansAreTheDerivatives) {
   Random random(9);
   const double h = 1e-6;

@@ -15,11 +15,7 @@ using testing::SyntheticWorld;
 
 OdometryOptions RoomOptions() {
   OdometryOptions options;
-  options.segmenter.map_voxel_m = 0.1;
-  options.segmenter.registration_voxel_m = 0.4;
-  options.map.voxel_size_m = 0.5;
-  options.map.min_point_spacing_m = 0.1;
-  options.association.plane.min_width_m = 0.05;
+  options.segmenter.registration_voxel_m = 0.5;
   return options;
 }
 
@@ -153,7 +149,7 @@ TEST(Odometry, WorksOnTheKdTreeMapToo) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;
   OdometryOptions options = RoomOptions();
-  options.map.kind = MapKind::kKdTree;
+  options.map.finest.kind = MapKind::kKdTree;
   const RunResult run = RunOn(world, options, 15);
   EXPECT_LT(LargestError(world, run.odometry->trajectory(), 1.45), 0.03);
 }

@@ -36,7 +36,7 @@ TEST(PlaneFit, FindsThePlaneOfANoiselessPatchAnywhereInTheWorld) {
     const Eigen::Vector3d normal = random.Direction();
     const Eigen::Vector3d center = 1e5 * random.Direction();
     Plane plane;
-    ASSERT_TRUE(FitPlane(Patch(&random, normal, center, 0.5, 0.5, 0.0), {}, &plane));
+    ASSERT_TRUE(FitPlane(Patch(&random, normal, center, 0.5, 0.5, 0.0), {}, 0.1, &plane));
     EXPECT_NEAR(std::abs(plane.normal_world.dot(normal)), 1.0, 1e-6);
     EXPECT_NEAR(plane.normal_world.dot(center), plane.offset_m, 1e-5);
   }
@@ -47,7 +47,7 @@ TEST(PlaneFit, AgreesWithAnIterativeEigensolver) {
   for (int i = 0; i < 200; ++i) {
     const Neighbors n = Patch(&random, random.Direction(), {1, 2, 3}, 0.5, 0.3, 0.02);
     Plane plane;
-    if (!FitPlane(n, {}, &plane)) continue;
+    if (!FitPlane(n, {}, 0.1, &plane)) continue;
     Eigen::Matrix<double, 3, 8> P;
     for (int j = 0; j < 8; ++j) P.col(j) << n.x[j], n.y[j], n.z[j];
     const Eigen::Vector3d mean = P.rowwise().mean();
@@ -62,14 +62,14 @@ TEST(PlaneFit, AgreesWithAnIterativeEigensolver) {
 TEST(PlaneFit, RefusesAScanLineAThickCloudAndTooFewPoints) {
   testing::Random random(3);
   Plane plane;
-  EXPECT_FALSE(FitPlane(Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 0.01, 0.001), {}, &plane))
+  EXPECT_FALSE(FitPlane(Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 0.01, 0.001), {}, 0.1, &plane))
       << "points on one ring have no normal";
-  EXPECT_FALSE(FitPlane(Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 1.0, 0.6), {}, &plane));
+  EXPECT_FALSE(FitPlane(Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 1.0, 0.6), {}, 0.1, &plane));
   Neighbors few = Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 1.0, 0.0);
   few.count = 4;
-  EXPECT_FALSE(FitPlane(few, {}, &plane));
+  EXPECT_FALSE(FitPlane(few, {}, 0.1, &plane));
   few.count = 0;
-  EXPECT_FALSE(FitPlane(few, {}, &plane));
+  EXPECT_FALSE(FitPlane(few, {}, 0.1, &plane));
 }
 
 }  // namespace
