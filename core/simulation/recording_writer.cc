@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "core/simulation/recording_writer.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include "core/simulation/scenario_yaml.h"
+#include "core/simulation/scene_picture.h"
+
+namespace trajlo::simulation {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void MakeFolder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    throw std::runtime_error("cannot create the folder '" + path.string() +
+                             "': " + error.message());
+  }
+}
+
+void WriteFile(const fs::path& path, const std::string& head, const std::vector<float>& body = {}) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(head.data(), static_cast<std::streamsize>(head.size()));
+  file.write(reinterpret_cast<const char*>(body.data()),
+             static_cast<std::streamsize>(body.size() * sizeof(float)));
+  file.close();
+  if (!file) throw std::runtime_error("cannot write '" + path.string() + "'");
+}
+
+std::string NumberedName(std::size_t number, const char* extension) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "%06zu.%s", number, extension);
+  return name;
+}
+
+void WritePcd(const fs::path& path, const SimulatedScan& simulated) {
+  const std::vector<LidarPoint>& points = simulated.scan.points;
+  const std::string count = std::to_string(points.size());
+  const std::string header =
+      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity time\n"
+      "SIZE 4 4 4 4 4\nTYPE F F F F F\nCOUNT 1 1 1 1 1\nWIDTH " +
+      count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
+  std::vector<float> data;
+  data.reserve(5 * points.size());
+  for (const LidarPoint& p : points) {
+    data.insert(data.end(), {p.xyz_m.x(), p.xyz_m.y(), p.xyz_m.z(), p.intensity});
+    data.push_back(
+        static_cast<float>(1e-9 * static_cast<double>(p.t_ns - simulated.sweep_start_ns)));
+  }
+  WriteFile(path, header, data);
+}
+
+void WriteKittiBin(const fs::path& path, const LidarScan& scan) {
+  std::vector<float> data;
+  data.reserve(4 * scan.points.size());
+  for (const LidarPoint& p : scan.points) {
+    data.insert(data.end(), {p.xyz_m.x(), p.xyz_m.y(), p.xyz_m.z(), p.intensity / 255.0F});
+  }
+  WriteFile(path, "", data);
+}
+
+std::string TumLine(std::int64_t t_ns, const SE3& T) {
+  char text[256];
+  std::snprintf(text, sizeof(text), "%s %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n",
+                SecondsText(t_ns).c_str(), T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(),
+                T.q.w());
+  return text;
+}
+
+std::string KittiLine(const SE3& T) {
+  const Eigen::Matrix3d R = T.q.toRotationMatrix();
+  std::string line;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      char text[40];
+      std::snprintf(text, sizeof(text), "%.12g", column < 3 ? R(row, column) : T.t[row]);
+      line += (line.empty() ? "" : " ") + std::string(text);
+    }
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string SecondsText(std::int64_t t_ns) {
+  char text[48];
+  const std::int64_t magnitude = std::llabs(t_ns);
+  std::snprintf(text, sizeof(text), "%s%lld.%09lld", t_ns < 0 ? "-" : "",
+                static_cast<long long>(magnitude / 1'000'000'000),
+                static_cast<long long>(magnitude % 1'000'000'000));
+  return text;
+}
+
+RecordingWriter::RecordingWriter(const Simulator& simulator, fs::path directory)
+    : simulator_(simulator), directory_(std::move(directory)) {
+  const Scenario& scenario = simulator.scenario();
+  for (std::size_t id = 0; id < scenario.rig.size(); ++id) {
+    const fs::path folder =
+        scenario.rig.size() == 1 ? directory_ : directory_ / ("lidar" + std::to_string(id));
+    MakeFolder(folder / (scenario.motion_corrected ? "velodyne" : "scans"));
+    streams_.push_back({folder, {}});
+  }
+}
+
+void RecordingWriter::Write(const SimulatedScan& simulated) {
+  const LidarScan& scan = simulated.scan;
+  Stream& stream = streams_.at(static_cast<std::size_t>(scan.lidar_id));
+  const std::size_t number = stream.stamps_ns.size();
+  if (scan.has_point_times) {
+    WritePcd(stream.directory / "scans" / NumberedName(number, "pcd"), simulated);
+  } else {
+    WriteKittiBin(stream.directory / "velodyne" / NumberedName(number, "bin"), scan);
+  }
+  stream.stamps_ns.push_back(scan.stamp_ns);
+  ++scans_;
+  points_ += static_cast<std::int64_t>(scan.points.size());
+}
+
+void RecordingWriter::Finish() {
+  for (std::size_t id = 0; id < streams_.size(); ++id) {
+    const Stream& stream = streams_[id];
+    if (simulator_.scenario().motion_corrected) {
+      WriteKittiTables(stream, static_cast<int>(id));
+      continue;
+    }
+    std::string stamps;
+    for (const std::int64_t t_ns : stream.stamps_ns) stamps += SecondsText(t_ns) + "\n";
+    WriteFile(stream.directory / "timestamps.txt", stamps);
+  }
+  constexpr std::int64_t kTruthStepNs = 1'000'000;
+  std::string truth;
+  for (std::int64_t t = simulator_.start_ns(); t <= simulator_.end_ns(); t += kTruthStepNs) {
+    truth += TumLine(t, simulator_.TrueWorldFromBody(t));
+  }
+  WriteFile(directory_ / "truth.tum", truth);
+  WriteFile(directory_ / "scenario.yaml", ScenarioYaml(simulator_.scenario()));
+  WriteFile(directory_ / "picture.svg", ScenePicture(simulator_));
+}
+
+void RecordingWriter::WriteKittiTables(const Stream& stream, int lidar_id) const {
+  const LidarConfig& lidar = simulator_.scenario().rig[static_cast<std::size_t>(lidar_id)];
+  const std::int64_t clock_offset_ns = std::llround(lidar.clock_offset_s * 1e9);
+  std::string times;
+  std::string poses;
+  SE3 T_first_world;
+  for (std::size_t i = 0; i < stream.stamps_ns.size(); ++i) {
+    const std::int64_t t_ns = stream.stamps_ns[i];
+    const SE3 T_world_lidar =
+        simulator_.TrueWorldFromBody(t_ns - clock_offset_ns) * lidar.T_body_lidar;
+    if (i == 0) T_first_world = T_world_lidar.Inverse();
+    times += SecondsText(t_ns - simulator_.start_ns()) + "\n";
+    poses += KittiLine(T_first_world * T_world_lidar);
+  }
+  WriteFile(stream.directory / "times.txt", times);
+  WriteFile(stream.directory / "poses.txt", poses);
+}
+
+}  // namespace trajlo::simulation

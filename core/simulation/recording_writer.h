@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/simulation/simulated_scan.h"
+#include "core/simulation/simulator.h"
+
+namespace trajlo::simulation {
+
+/// Writes a recording as a folder:
+///   scans/000000.pcd ...   binary PCD, fields x y z intensity time (float32; time in seconds since
+///                          the start of the sweep)
+///   timestamps.txt         the stamp of each scan, seconds with 9 decimals
+///   truth.tum              poses T_world_body at 1 kHz and true times, `t x y z qx qy qz qw`
+///   scenario.yaml          all parameters, with the true extrinsics
+///   picture.svg            the scene and the path from above
+/// A rig of several LiDARs has lidar0/, lidar1/ ... with scans/ and timestamps.txt in each. A
+/// motion-corrected recording has KITTI's velodyne/000000.bin (x y z intensity, float32), times.txt
+/// (seconds since the start of the recording) and poses.txt (3x4 poses of the LiDAR at those times,
+/// relative to the first) in place of scans/ and timestamps.txt.
+class RecordingWriter {
+ public:
+  /// Makes the folders. Throws std::runtime_error naming the path that cannot be written.
+  RecordingWriter(const Simulator& simulator, std::filesystem::path directory);
+
+  void Write(const SimulatedScan& simulated);
+  /// Writes what goes beside the scans.
+  void Finish();
+
+  std::int64_t scans() const { return scans_; }
+  std::int64_t points() const { return points_; }
+
+ private:
+  struct Stream {
+    std::filesystem::path directory;
+    std::vector<std::int64_t> stamps_ns;
+  };
+  void WriteKittiTables(const Stream& stream, int lidar_id) const;
+
+  const Simulator& simulator_;
+  std::filesystem::path directory_;
+  std::vector<Stream> streams_;
+  std::int64_t scans_ = 0;
+  std::int64_t points_ = 0;
+};
+
+/// The text of seconds with 9 decimals, exact for any int64.
+std::string SecondsText(std::int64_t t_ns);
+
+}  // namespace trajlo::simulation

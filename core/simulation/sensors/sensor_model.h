@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/simulation/sensors/scan_pattern.h"
+
+namespace trajlo::simulation {
+
+/// What a LiDAR gets wrong. Standard deviations are of zero-mean normal noise.
+struct MeasurementModel {
+  double range_sigma_m = 0.02;
+  /// Of each of the two angles across the beam; the point is reported along the nominal direction.
+  double angle_sigma_rad = 0.0;
+  /// Share of the returns that are lost at random.
+  double dropout_fraction = 0.01;
+  double min_range_m = 0.5;
+  double max_range_m = 100.0;
+};
+
+/// A LiDAR: where and when it looks, and how well it measures.
+struct SensorModel {
+  std::string name;
+  std::shared_ptr<const ScanPattern> pattern;
+  MeasurementModel measurement;
+};
+
+/// Makes a sensor by name: os1_16, os0_64, os1_128, vlp16, hdl32e, hdl64e, pandar_xt32, mid70,
+/// avia, mid360. `columns` replaces the number of firings around (0 keeps the sensor's own; the
+/// Livox patterns have none). Throws std::invalid_argument for an unknown name.
+SensorModel MakeSensor(const std::string& name, int columns = 0);
+
+/// The names that MakeSensor knows.
+std::vector<std::string> SensorNames();
+
+}  // namespace trajlo::simulation

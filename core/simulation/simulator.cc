@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "core/simulation/simulator.h"
+
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "core/simulation/random.h"
+#include "core/simulation/scenes/scene_builder.h"
+
+namespace trajlo::simulation {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// A fixed number, so that the cut into tasks does not depend on the threads.
+constexpr int kFiringsPerTask = 2048;
+
+std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
+
+/// A direction turned by small normal angles about two axes across it.
+Vector3d Disturbed(const Vector3d& direction, double sigma_rad, CounterRandom* random) {
+  const Vector3d u = direction.unitOrthogonal();
+  const Vector3d v = direction.cross(u);
+  const double a = sigma_rad * random->Gaussian();
+  const double b = sigma_rad * random->Gaussian();
+  return (direction + a * u + b * v).normalized();
+}
+
+}  // namespace
+
+struct Simulator::World {
+  Scene scene;
+  PoseFunction T_world_body;
+
+  static World Make(const Scenario& scenario) {
+    SceneBlueprint blueprint = BuildScene(scenario.scene, scenario.seed);
+    if (!scenario.moving_objects) blueprint.moving_objects.clear();
+    PoseFunction motion =
+        MakeMotion(scenario.motion, blueprint.routes, scenario.duration_s, scenario.seed);
+    return {Scene(std::move(blueprint.mesh), std::move(blueprint.moving_objects)),
+            std::move(motion)};
+  }
+};
+
+Simulator::Simulator(const Scenario& scenario) : Simulator(scenario, World::Make(scenario)) {}
+
+Simulator::Simulator(const Scenario& scenario, World world)
+    : Simulator(scenario, std::move(world.scene), std::move(world.T_world_body)) {}
+
+Simulator::Simulator(const Scenario& scenario, Scene scene, PoseFunction T_world_body)
+    : scenario_(scenario),
+      scene_(std::move(scene)),
+      T_world_body_(std::move(T_world_body)),
+      start_ns_(scenario.start_time_ns),
+      end_ns_(start_ns_ + ToNs(scenario.duration_s)) {
+  if (scenario.rig.empty()) throw std::invalid_argument("the rig has no LiDAR");
+  if (!(scenario.duration_s > 0.0)) throw std::invalid_argument("the duration must be positive");
+  for (const LidarConfig& lidar : scenario.rig) {
+    sensors_.push_back(MakeSensor(lidar.sensor, lidar.columns));
+    sensors_.back().measurement = lidar.measurement;
+  }
+}
+
+SE3 Simulator::TrueWorldFromBody(std::int64_t t_ns) const {
+  return T_world_body_(1e-9 * static_cast<double>(t_ns - start_ns_));
+}
+
+std::int64_t Simulator::ScanCount(int lidar_id) const {
+  const auto id = static_cast<std::size_t>(lidar_id);
+  const std::int64_t available_ns = end_ns_ - start_ns_ - ToNs(scenario_.rig[id].phase_s);
+  return std::max<std::int64_t>(0, available_ns / sensors_[id].pattern->period_ns());
+}
+
+SimulatedScan Simulator::SimulateScan(int lidar_id, std::int64_t index) const {
+  const auto id = static_cast<std::size_t>(lidar_id);
+  const ScanPattern& pattern = *sensors_[id].pattern;
+  SimulatedScan simulated;
+  simulated.index = index;
+  simulated.period_ns = pattern.period_ns();
+  simulated.true_start_ns =
+      start_ns_ + ToNs(scenario_.rig[id].phase_s) + index * pattern.period_ns();
+  simulated.sweep_start_ns = simulated.true_start_ns + ToNs(scenario_.rig[id].clock_offset_s);
+  simulated.scan.lidar_id = lidar_id;
+  simulated.scan.stamp_ns = simulated.sweep_start_ns;
+
+  const int firings = pattern.firings_per_scan();
+  const int tasks = (firings + kFiringsPerTask - 1) / kFiringsPerTask;
+  std::vector<std::vector<LidarPoint>> parts(static_cast<std::size_t>(tasks));
+  tbb::parallel_for(0, tasks, [&](int task) {
+    CastFirings(lidar_id, index, task * kFiringsPerTask,
+                std::min(firings, (task + 1) * kFiringsPerTask),
+                &parts[static_cast<std::size_t>(task)]);
+  });
+  for (const std::vector<LidarPoint>& part : parts) {
+    simulated.scan.points.insert(simulated.scan.points.end(), part.begin(), part.end());
+  }
+  if (scenario_.motion_corrected) CorrectMotion(&simulated);
+  return simulated;
+}
+
+void Simulator::CastFirings(int lidar_id, std::int64_t index, int first, int last,
+                            std::vector<LidarPoint>* points) const {
+  const auto id = static_cast<std::size_t>(lidar_id);
+  const LidarConfig& lidar = scenario_.rig[id];
+  const ScanPattern& pattern = *sensors_[id].pattern;
+  const MeasurementModel& model = lidar.measurement;
+  const std::int64_t begin_ns = ToNs(lidar.phase_s) + index * pattern.period_ns();
+  const std::int64_t stamp_ns = start_ns_ + begin_ns + ToNs(lidar.clock_offset_s);
+  std::int64_t pose_offset_ns = -1;
+  double t_s = 0.0;
+  SE3 T_world_lidar;
+  points->reserve(static_cast<std::size_t>(last - first));
+  for (int i = first; i < last; ++i) {
+    const Firing firing = pattern.At(index, i);
+    if (firing.offset_ns != pose_offset_ns) {  // The beams of a column may share their time.
+      pose_offset_ns = firing.offset_ns;
+      t_s = 1e-9 * static_cast<double>(begin_ns + firing.offset_ns);
+      T_world_lidar = T_world_body_(t_s) * lidar.T_body_lidar;
+    }
+    CounterRandom random(scenario_.seed, static_cast<std::uint64_t>(lidar_id),
+                         static_cast<std::uint64_t>(index), static_cast<std::uint64_t>(i));
+    if (random.Uniform() < model.dropout_fraction) continue;
+    const double noise_m = model.range_sigma_m * random.Gaussian();
+    const Vector3d beam = model.angle_sigma_rad > 0.0
+                              ? Disturbed(firing.direction, model.angle_sigma_rad, &random)
+                              : firing.direction;
+    const Vector3d ray = T_world_lidar.q * beam;
+    const std::optional<RayHit> hit = scene_.CastRay(T_world_lidar.t, ray, t_s, model.max_range_m);
+    if (!hit || hit->range_m < model.min_range_m) continue;
+    LidarPoint point;
+    point.xyz_m = (firing.direction * (hit->range_m + noise_m)).cast<float>();
+    // A diffuse surface: what comes back falls with the cosine of the angle of incidence. The
+    // sensors compensate for the distance.
+    point.intensity = 255.0F * hit->reflectivity * static_cast<float>(-hit->normal.dot(ray));
+    point.t_ns = stamp_ns + firing.offset_ns;
+    points->push_back(point);
+  }
+}
+
+void Simulator::CorrectMotion(SimulatedScan* simulated) const {
+  LidarScan& scan = simulated->scan;
+  const SE3& T_body_lidar = scenario_.rig[static_cast<std::size_t>(scan.lidar_id)].T_body_lidar;
+  const std::int64_t to_true_ns = simulated->true_start_ns - simulated->sweep_start_ns;
+  const std::int64_t middle_ns = simulated->sweep_start_ns + simulated->period_ns / 2;
+  const SE3 T_middle_world = (TrueWorldFromBody(middle_ns + to_true_ns) * T_body_lidar).Inverse();
+  std::int64_t pose_t_ns = -1;
+  SE3 T_middle_lidar;
+  for (LidarPoint& point : scan.points) {
+    if (point.t_ns != pose_t_ns) {
+      pose_t_ns = point.t_ns;
+      T_middle_lidar = T_middle_world * TrueWorldFromBody(pose_t_ns + to_true_ns) * T_body_lidar;
+    }
+    point.xyz_m = (T_middle_lidar * point.xyz_m.cast<double>()).cast<float>();
+    point.t_ns = middle_ns;
+  }
+  scan.stamp_ns = middle_ns;
+  scan.has_point_times = false;
+  simulated->sweep_start_ns = middle_ns;
+}
+
+void SimulateScans(const Simulator& simulator, int threads,
+                   const std::function<void(const SimulatedScan&)>& consume) {
+  struct Sweep {
+    std::int64_t end_ns;
+    int lidar_id;
+    std::int64_t index;
+  };
+  const Scenario& scenario = simulator.scenario();
+  std::vector<Sweep> sweeps;
+  for (int id = 0; id < static_cast<int>(scenario.rig.size()); ++id) {
+    const LidarConfig& lidar = scenario.rig[static_cast<std::size_t>(id)];
+    const std::int64_t period_ns = MakeSensor(lidar.sensor, lidar.columns).pattern->period_ns();
+    for (std::int64_t i = 0; i < simulator.ScanCount(id); ++i) {
+      sweeps.push_back({ToNs(lidar.phase_s) + (i + 1) * period_ns, id, i});
+    }
+  }
+  std::sort(sweeps.begin(), sweeps.end(), [](const Sweep& a, const Sweep& b) {
+    return std::tie(a.end_ns, a.lidar_id) < std::tie(b.end_ns, b.lidar_id);
+  });
+
+  FaultInjector faults(scenario.faults, scenario.seed, simulator.start_ns());
+  // More threads than processors would only make oneTBB complain.
+  const int processors = tbb::info::default_concurrency();
+  tbb::task_arena arena(threads > 0 ? std::min(threads, processors) : processors);
+  for (const Sweep& sweep : sweeps) {
+    SimulatedScan simulated;
+    arena.execute([&] { simulated = simulator.SimulateScan(sweep.lidar_id, sweep.index); });
+    if (faults.Apply(&simulated)) consume(simulated);
+  }
+}
+
+void SimulateScans(const Scenario& scenario, int threads,
+                   const std::function<void(const SimulatedScan&)>& consume) {
+  SimulateScans(Simulator(scenario), threads, consume);
+}
+
+}  // namespace trajlo::simulation

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// The command as a user meets it: exit codes, messages and what is on the disk afterwards.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code;
+  std::string output;  // Of both streams.
+};
+
+std::string Contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+class SimulateCommand : public testing::Test {
+ protected:
+  SimulateCommand()
+      : folder_(fs::path(testing::TempDir()) / "trajlo_simulate_command" /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~SimulateCommand() override { fs::remove_all(folder_); }
+
+  Outcome Run(const std::string& arguments) const {
+    const std::string log = (folder_ / "log").string();
+    const int status =
+        std::system((TRAJLO_SIMULATE " " + arguments + " >" + log + " 2>&1").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, Contents(log)};
+  }
+  std::string Out(const std::string& name) const { return (folder_ / name).string(); }
+
+  fs::path folder_;
+};
+
+TEST_F(SimulateCommand, HelpTeachesByExample) {
+  const Outcome help = Run("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_NE(help.output.find("trajlo_simulate --scenario=hall_os1_16 --output="),
+            std::string::npos);
+  const Outcome list = Run("--list");
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_NE(list.output.find("office_os0_64"), std::string::npos);
+}
+
+TEST_F(SimulateCommand, WrongUsageExitsWithOneAndSaysWhy) {
+  EXPECT_EQ(Run("").exit_code, 1);
+  EXPECT_EQ(Run("--scenario=hall_os1_16").exit_code, 1);
+  EXPECT_EQ(Run("--nonsense").exit_code, 1);
+  EXPECT_EQ(Run("--scenario=mars --output=" + Out("a")).exit_code, 1);
+  const Outcome key = Run("--scenario=hall_os1_16 --output=" + Out("a") + " --set=motion.sped=1");
+  EXPECT_EQ(key.exit_code, 1);
+  EXPECT_NE(key.output.find("motion.speed_mps"), std::string::npos);
+  EXPECT_FALSE(fs::exists(Out("a")));
+}
+
+TEST_F(SimulateCommand, AnExistingRecordingIsKeptUnlessAskedOtherwise) {
+  const std::string run = "--scenario=hall_os1_16 --duration_s=0.3 --output=" + Out("a");
+  EXPECT_EQ(Run(run).exit_code, 0);
+  const std::string before = Contents(folder_ / "a" / "truth.tum");
+  EXPECT_EQ(Run(run + " --seed=2").exit_code, 5);
+  EXPECT_EQ(Contents(folder_ / "a" / "truth.tum"), before);
+  EXPECT_EQ(Run(run + " --seed=2 --duration_s=0.1 --overwrite").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "a" / "scans" / "000001.pcd"));
+}
+
+TEST_F(SimulateCommand, AnOutputThatCannotBeWrittenExitsWithFive) {
+  std::ofstream(Out("file")) << "not a folder";
+  const Outcome outcome = Run("--scenario=hall_os1_16 --output=" + Out("file/inside"));
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_NE(outcome.output.find("file/inside"), std::string::npos);
+}
+
+TEST_F(SimulateCommand, TheNumberOfThreadsDoesNotChangeAByte) {
+  const std::string run = "--scenario=faults_os1_16x2 --duration_s=0.6 ";
+  ASSERT_EQ(Run(run + "--threads=1 --output=" + Out("one")).exit_code, 0);
+  ASSERT_EQ(Run(run + "--threads=3 --output=" + Out("three")).exit_code, 0);
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "one")) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path other = folder_ / "three" / fs::relative(entry.path(), folder_ / "one");
+    EXPECT_EQ(Contents(entry.path()), Contents(other)) << other;
+    ++files;
+  }
+  EXPECT_GT(files, 10);
+}
+
+TEST_F(SimulateCommand, SettingsMayHoldCommas) {
+  ASSERT_EQ(Run("--scenario=hall_os1_16 --duration_s=0.1 --output=" + Out("a") +
+                " --set=lidar0.T_body_lidar=1,2,3,0,0,0,1,seed=9")
+                .exit_code,
+            0);
+  const std::string yaml = Contents(folder_ / "a" / "scenario.yaml");
+  EXPECT_NE(yaml.find("T_body_lidar: [1,2,3,0,0,0,1]"), std::string::npos);
+  EXPECT_NE(yaml.find("seed: 9"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "core/simulation/scenario.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/simulation/scenario_parameters.h"
+#include "core/simulation/simulator.h"
+
+namespace trajlo::simulation {
+namespace {
+
+TEST(Scenario, AParameterIsSetByNameAndReadsBack) {
+  Scenario scenario = MakeScenario("hall_os1_16x2");
+  SetParameter(&scenario, "motion.speed_mps", "4.5");
+  SetParameter(&scenario, "lidar1.T_body_lidar", "1,2,3,0,0,0,2");
+  SetParameter(&scenario, "lidar.range_sigma_m", "0.05");
+  SetParameter(&scenario, "faults.end_of_sweep_stamps", "true");
+  EXPECT_EQ(scenario.motion.speed_mps, 4.5);
+  EXPECT_EQ(scenario.rig[1].T_body_lidar.t, Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_EQ(scenario.rig[1].T_body_lidar.q.norm(), 1.0);
+  EXPECT_EQ(scenario.rig[0].measurement.range_sigma_m, 0.05);
+  EXPECT_EQ(scenario.rig[1].measurement.range_sigma_m, 0.05);
+  EXPECT_TRUE(scenario.faults.end_of_sweep_stamps);
+
+  // Everything that is written can be read.
+  Scenario copy = MakeScenario("hall_os1_16x2");
+  for (const Parameter& parameter : Parameters(&scenario)) {
+    SetParameter(&copy, parameter.key, ParameterText(parameter));
+  }
+  const std::vector<Parameter> a = Parameters(&scenario);
+  const std::vector<Parameter> b = Parameters(&copy);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(ParameterText(a[i]), ParameterText(b[i]));
+}
+
+std::string MessageOf(const std::string& key, const std::string& text) {
+  Scenario scenario = MakeScenario("hall_os1_16");
+  try {
+    SetParameter(&scenario, key, text);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Scenario, AWrongKeyOrValueIsNamedWithTheNearestKey) {
+  EXPECT_NE(MessageOf("motion.sped", "1").find("motion.speed_mps"), std::string::npos);
+  EXPECT_NE(MessageOf("fault.nan_point_fraction", "1").find("faults.nan_point_fraction"),
+            std::string::npos);
+  EXPECT_NE(MessageOf("motion.speed_mps", "fast").find("'fast' is not a number"),
+            std::string::npos);
+  EXPECT_NE(MessageOf("moving_objects", "yes").find("true or false"), std::string::npos);
+  EXPECT_NE(MessageOf("lidar0.T_body_lidar", "1,2,3").find("x,y,z,qx,qy,qz,qw"), std::string::npos);
+  EXPECT_NE(MessageOf("lidar0.sensor", "os9").find("unknown sensor"), std::string::npos);
+}
+
+TEST(Scenario, ANewSensorBringsItsOwnMeasurementModel) {
+  Scenario scenario = MakeScenario("hall_os1_16");
+  SetParameter(&scenario, "lidar0.sensor", "pandar_xt32");
+  EXPECT_EQ(scenario.rig[0].measurement.range_sigma_m, 0.01);
+}
+
+TEST(Scenario, AnUnknownNameIsRefused) {
+  EXPECT_THROW(MakeScenario("mars"), std::invalid_argument);
+}
+
+class AnyScenario : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Names, AnyScenario, testing::ValuesIn(ScenarioNames()),
+                         [](const auto& instance) { return instance.param; });
+
+/// The distance from a point to the nearest surface, to within a few degrees of direction.
+double Clearance(const Scene& scene, const Eigen::Vector3d& position) {
+  constexpr int kRays = 150;
+  double clearance = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kRays; ++i) {  // A Fibonacci sphere.
+    const double z = 1.0 - 2.0 * (i + 0.5) / kRays;
+    const double azimuth = i * M_PI * (3.0 - std::sqrt(5.0));
+    const double r = std::sqrt(1.0 - z * z);
+    const Eigen::Vector3d direction(r * std::cos(azimuth), r * std::sin(azimuth), z);
+    const auto hit = scene.CastRay(position, direction, 0.0, 5.0);
+    if (hit) clearance = std::min(clearance, hit->range_m);
+  }
+  return clearance;
+}
+
+TEST_P(AnyScenario, KeepsClearOfWallsForAMinuteAndThreeSeeds) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Scenario scenario = MakeScenario(GetParam());
+    scenario.seed = seed;
+    scenario.duration_s = 60.0;
+    scenario.moving_objects = false;
+    const Simulator simulator(scenario);
+    Eigen::Vector3d previous = simulator.TrueWorldFromBody(simulator.start_ns()).t;
+    for (std::int64_t t = simulator.start_ns(); t < simulator.end_ns(); t += 100'000'000) {
+      const Eigen::Vector3d position = simulator.TrueWorldFromBody(t).t;
+      ASSERT_GT(Clearance(simulator.scene(), position), 0.22)
+          << "at " << position.transpose() << ", seed " << seed;
+      const double step = (position - previous).norm();
+      if (step > 1e-6) {
+        const auto hit =
+            simulator.scene().CastRay(previous, (position - previous) / step, 0.0, step);
+        ASSERT_FALSE(hit) << "through a wall at " << position.transpose();
+      }
+      previous = position;
+    }
+  }
+}
+
+TEST_P(AnyScenario, GivesManyPointsInEveryScan) {
+  Scenario scenario = MakeScenario(GetParam());
+  scenario.duration_s = 0.5;
+  scenario.faults = FaultConfig{};
+  int scans = 0;
+  SimulateScans(scenario, 0, [&](const SimulatedScan& simulated) {
+    EXPECT_GT(simulated.scan.points.size(), 2000U);
+    ++scans;
+  });
+  EXPECT_GE(scans, 4);
+}
+
+}  // namespace
+}  // namespace trajlo::simulation
