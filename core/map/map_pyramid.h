@@ -12,9 +12,9 @@ namespace trajlo {
 struct MapPyramidOptions {
   MapOptions finest;
   /// Number of maps; 1 is the paper's single map.
-  int levels = 2;
+  int levels = 4;
   /// Voxels and spacing grow by this from level to level.
-  double level_ratio = 2.5;
+  double level_ratio = 2.0;
 };
 
 /// The same points at several resolutions. A plane is sought in the finest map first, where points

@@ -20,6 +20,13 @@ Eigen::Vector3f TurnUp(const Eigen::Vector3f& p, float angle_rad) {
   return p * std::cos(angle_rad) + (axis / norm).cross(p) * std::sin(angle_rad);
 }
 
+/// Keeps `count` points at even distances in the order of the list.
+void ThinEvenly(std::size_t count, std::vector<SegmentPoint>* points) {
+  if (count == 0 || points->size() <= count) return;
+  for (std::size_t i = 0; i < count; ++i) (*points)[i] = (*points)[i * points->size() / count];
+  points->resize(count);
+}
+
 }  // namespace
 
 Segmenter::Segmenter(const SegmenterOptions& options)
@@ -159,6 +166,8 @@ void Segmenter::Complete(Open* open) {
   if (first_completed_) {
     map_filter_.Filter(open->points, &cloud->map_points);
     registration_filter_.Filter(cloud->map_points, &cloud->registration_points);
+    ThinEvenly(static_cast<std::size_t>(options_.max_registration_points),
+               &cloud->registration_points);
   } else {
     // The start of motion is found by comparing the two halves of the first segment: each must keep
     // its own points where the other has some, too.

@@ -23,6 +23,8 @@ struct SegmenterOptions {
   double map_voxel_m = 0.1;
   /// At most one of those per cell of this size is registered.
   double registration_voxel_m = 0.4;
+  /// At most this many are registered of a segment, taken evenly over its points; 0 takes all.
+  int max_registration_points = 2000;
   /// A longer pause becomes one gap segment; shorter ones become empty segments.
   double max_gap_s = 1.0;
   /// A LiDAR that lags behind the others by more is not waited for.

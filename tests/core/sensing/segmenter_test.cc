@@ -179,6 +179,25 @@ TEST(Segmenter, TurnsRaysUpByTheVerticalCorrection) {
   EXPECT_NEAR(p.y() / p.x(), 4.0 / 3.0, 1e-5);
 }
 
+TEST(Segmenter, RegistersAtMostSoManyPointsSpreadOverTheSegment) {
+  SegmenterOptions options = SmallOptions();
+  options.first_interval_s = 0.001;
+  options.interval_s = 0.1;
+  options.map_voxel_m = options.registration_voxel_m = 0.01;
+  options.max_registration_points = 7;
+  Segmenter segmenter(options);
+  segmenter.AddScan(MakeScan(0, 101));
+  segmenter.Finish();
+  const auto clouds = Drain(&segmenter);
+  ASSERT_GE(clouds.size(), 2u);
+  ASSERT_EQ(clouds[1].registration_points.size(), 7u);
+  EXPECT_GT(clouds[1].map_points.size(), 90u);
+  for (std::size_t i = 1; i < 7; ++i) {
+    EXPECT_NEAR(clouds[1].registration_points[i].alpha - clouds[1].registration_points[i - 1].alpha,
+                1.0 / 7, 0.02);
+  }
+}
+
 TEST(VoxelFilter, KeepsTheFirstPointOfEachCellWithItsTime) {
   std::mt19937 engine(1);
   std::uniform_real_distribution<float> coordinate(-20, 20);

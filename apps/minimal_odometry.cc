@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The library in thirty lines: minimal_odometry FOLDER prints the trajectory in TUM format.
+#include <cstdio>
+#include <exception>
+
+#include "core/estimation/odometry.h"
+#include "core/io/scan_folder.h"
+#include "core/io/stamp_text.h"
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: minimal_odometry FOLDER_OF_SCANS\n");
+    return 1;
+  }
+  trajlo::OdometryOptions options;
+  options.window.segments = 4;
+  options.segmenter.interval_s = 0.03;
+
+  trajlo::Odometry odometry(options);
+  trajlo::ScanFolder recording(argv[1]);
+  trajlo::LidarScan scan;
+  while (recording.Next(&scan)) odometry.AddScan(scan);
+  odometry.Finish();
+
+  for (const trajlo::ControlPose& pose : odometry.trajectory().poses()) {
+    const trajlo::SE3& T = pose.T_world_body;
+    std::printf("%s %.6f %.6f %.6f %.9f %.9f %.9f %.9f\n",
+                trajlo::FormatSeconds(pose.t_ns).c_str(), T.t.x(), T.t.y(), T.t.z(), T.q.x(),
+                T.q.y(), T.q.z(), T.q.w());
+  }
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
+}

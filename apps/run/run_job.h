@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "apps/run/exit_code.h"
+#include "core/config/config.h"
+#include "core/report/trajectory_sampler.h"
+
+namespace trajlo {
+
+/// What the command line of trajlo_run asks for.
+struct RunRequest {
+  std::vector<std::string> inputs;  ///< A folder per LiDAR.
+  std::string output;
+  RunConfig config;
+  SamplingOptions sampling;
+  bool overwrite = false;
+  bool quiet = false;  ///< Only warnings and errors are printed.
+  std::vector<std::string> command_line;
+};
+
+/// Reads the recording, estimates, and writes the results while it goes on. Problems are printed
+/// to stderr, and what was achieved until then is kept. `stop` ends the reading early.
+ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop);
+
+}  // namespace trajlo

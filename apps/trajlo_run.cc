@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// LiDAR odometry: a recording goes in, a trajectory and a map come out. See --help.
+#include <gflags/gflags.h>
+
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "apps/run/interrupt.h"
+#include "apps/run/recording.h"
+#include "apps/run/run_job.h"
+#include "core/config/config.h"
+#include "core/report/versions.h"
+
+DEFINE_string(input, "", "the recording: a folder of scans, or several separated by commas");
+DEFINE_string(output, "", "the folder to write");
+DEFINE_string(config, "", "YAML files, separated by commas; later ones override earlier ones");
+DEFINE_string(set, "", "options to change: key=value, separated by commas");
+DEFINE_string(solver, "", "ceres or gauss_newton");
+DEFINE_int32(threads, -1, "0 for all cores; the result does not depend on it");
+DEFINE_double(rate, 0.0, "poses per second in trajectory.tum; 0 writes the control poses");
+DEFINE_string(at, "", "one pose per scan: scan-end or scan-mid");
+DEFINE_bool(overwrite, false, "replace an earlier result in the output folder");
+DEFINE_bool(quiet, false, "print warnings and errors only");
+DEFINE_bool(show_config, false, "print the configuration with all options explained, and stop");
+
+namespace {
+
+using trajlo::ConfigError;
+using trajlo::ExitCode;
+
+constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory and a map come out.
+
+  trajlo_run --input=recording --output=result
+      reads recording/*.pcd, *.ply or *.bin (or recording/scans/...) and writes
+        result/trajectory.tum   poses of the body: time x y z qx qy qz qw
+        result/map.ply          the map at the end
+        result/windows.csv      what happened in every window
+        result/config.yaml      all options as they were
+        result/run.json         counts, times, warnings, how it ended
+  trajlo_run --input=recording --output=result --config=config/outdoor.yaml
+      options from a file; several, separated by commas, override each other
+  trajlo_run --input=recording --output=result --set=window.segments=3,map.voxel_size_m=0.4
+      options for this run alone
+  trajlo_run --show_config
+      every option with its value and its meaning (with --config and --set: as they leave it)
+  trajlo_run --input=kitti/sequences/00 --output=result --config=config/datasets/kitti.yaml
+      motion-corrected scans without point times
+  trajlo_run --input=front,rear --output=result --config=rig.yaml
+      several LiDARs; sensor.T_body_lidar in the configuration says where each one sits
+
+More flags:
+  --solver=ceres|gauss_newton   how a window is solved (solver.kind)
+  --threads=N                   0 for all cores; the result does not depend on it
+  --rate=HZ                     trajectory.tum at even times
+  --at=scan-end|scan-mid        trajectory.tum with one pose per scan
+  --overwrite                   replace an earlier result
+  --quiet                       print warnings and errors only
+  --version                     versions of this program and of what it stands on
+
+Exit codes: 0 ok, 1 wrong usage or configuration, 2 input unreadable, 3 a part of the input is
+damaged, 4 the estimator got lost, 5 output not writable, 130 interrupted. After 3, 4 and 130 the
+result until then is there.
+)";
+
+void PrintVersion() {
+  const trajlo::Versions v = trajlo::GetVersions();
+  std::printf("trajlo_run %s (commit %s; Eigen %s, Ceres %s, %s)\n", v.trajlo.c_str(),
+              v.git.c_str(), v.eigen.c_str(), v.ceres.c_str(), v.compiler.c_str());
+}
+
+trajlo::RunConfig ConfigFromFlags() {
+  trajlo::RunConfig config;
+  std::istringstream files(FLAGS_config);
+  for (std::string file; std::getline(files, file, ',');) {
+    if (!file.empty()) trajlo::LoadConfigFile(file, &config);
+  }
+  trajlo::ApplyOverrides(FLAGS_set, &config);
+  if (!FLAGS_solver.empty()) {
+    trajlo::ApplyOverrides("solver.kind=" + FLAGS_solver, &config, "--solver");
+  }
+  if (FLAGS_threads != -1) {
+    trajlo::ApplyOverrides("threads=" + std::to_string(FLAGS_threads), &config, "--threads");
+  }
+  trajlo::CheckConfig(config);
+  return config;
+}
+
+trajlo::SamplingOptions SamplingFromFlags() {
+  if (FLAGS_rate != 0.0 && !FLAGS_at.empty()) {
+    throw ConfigError("--rate and --at exclude each other");
+  }
+  if (!(FLAGS_rate >= 0.0 && FLAGS_rate <= 1e6)) {
+    throw ConfigError("--rate: must be between 0 and 1e6 Hz");
+  }
+  if (FLAGS_rate > 0.0) return {trajlo::SampleAt::kRate, FLAGS_rate};
+  if (FLAGS_at == "scan-end") return {trajlo::SampleAt::kScanEnd, 0.0};
+  if (FLAGS_at == "scan-mid") return {trajlo::SampleAt::kScanMid, 0.0};
+  if (!FLAGS_at.empty()) {
+    throw ConfigError("--at: must be scan-end or scan-mid, found '" + FLAGS_at + "'");
+  }
+  return {};
+}
+
+trajlo::RunRequest RequestFromFlags() {
+  trajlo::RunRequest request;
+  request.config = ConfigFromFlags();
+  request.sampling = SamplingFromFlags();
+  request.inputs = trajlo::InputFolders(FLAGS_input);
+  if (request.inputs.empty()) throw ConfigError("--input is missing");
+  if (FLAGS_output.empty()) throw ConfigError("--output is missing");
+  request.output = FLAGS_output;
+  request.overwrite = FLAGS_overwrite;
+  request.quiet = FLAGS_quiet;
+  return request;
+}
+
+bool WantsHelp(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    for (const char* flag : {"--help", "-help", "-h"}) {
+      if (std::strcmp(argv[i], flag) == 0) return true;
+    }
+  }
+  return false;
+}
+
+ExitCode Main(int argc, char** argv) {
+  // Ahead of gflags, whose own help lists the flags of every library that is linked.
+  if (WantsHelp(argc, argv)) {
+    std::fputs(kHelp, stdout);
+    return ExitCode::kOk;
+  }
+  const std::vector<std::string> command_line(argv, argv + argc);
+  // Ceres reports each failed step as a warning; what is done about it stands in windows.csv.
+  gflags::SetCommandLineOptionWithMode("minloglevel", "2", gflags::SET_FLAGS_DEFAULT);
+  gflags::SetCommandLineOptionWithMode("logtostderr", "true", gflags::SET_FLAGS_DEFAULT);
+  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
+  if (gflags::GetCommandLineFlagInfoOrDie("version").current_value == "true") {
+    PrintVersion();
+    return ExitCode::kOk;
+  }
+  gflags::HandleCommandLineHelpFlags();
+  try {
+    if (argc > 1) throw ConfigError("unexpected argument '" + std::string(argv[1]) + "'");
+    if (FLAGS_show_config) {
+      std::fputs(trajlo::DumpConfig(ConfigFromFlags()).c_str(), stdout);
+      return ExitCode::kOk;
+    }
+    trajlo::RunRequest request = RequestFromFlags();
+    request.command_line = command_line;
+    return trajlo::RunJob(request, trajlo::HandleInterrupts());
+  } catch (const ConfigError& error) {
+    std::fprintf(stderr, "trajlo_run: %s\n(trajlo_run --help shows examples)\n", error.what());
+    return ExitCode::kUsage;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return static_cast<int>(Main(argc, argv)); }

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Simulates LiDAR recordings with exact ground truth. See --help.
+#include <gflags/gflags.h>
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/simulation/recording_writer.h"
+#include "core/simulation/scenario.h"
+#include "core/simulation/scenario_parameters.h"
+#include "core/simulation/simulator.h"
+
+DEFINE_string(scenario, "", "which recording to simulate; --list shows them");
+DEFINE_string(output, "", "the folder to write; it must not exist or be empty");
+DEFINE_double(duration_s, 0.0, "length of the recording; 0 keeps the scenario's own");
+DEFINE_int64(seed, 0,
+             "seed of noise, shaking and details of the scene; 0 keeps the scenario's own");
+DEFINE_string(set, "", "parameters to change: key=value,key=value,...");
+DEFINE_int32(threads, 0, "0 for all processors; the recording does not depend on it");
+DEFINE_bool(list, false, "list the scenarios and stop");
+DEFINE_bool(list_parameters, false, "list the parameters of --scenario with their values and stop");
+DECLARE_bool(help);
+DEFINE_bool(overwrite, false, "replace what is in the output folder");
+
+namespace {
+
+namespace fs = std::filesystem;
+using trajlo::simulation::Scenario;
+
+enum ExitCode { kOk = 0, kUsage = 1, kOutputNotWritable = 5 };
+
+constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
+
+  trajlo_simulate --list
+      the scenarios, a line each
+  trajlo_simulate --scenario=hall_os1_16 --output=hall
+      writes hall/scans/*.pcd, hall/timestamps.txt, hall/truth.tum, hall/scenario.yaml
+  trajlo_simulate --scenario=hall_os1_16 --output=hall2 --duration_s=30 --seed=2
+      another hall, another flight, other noise
+  trajlo_simulate --scenario=hall_os1_16 --list_parameters
+      everything that --set can change, with its value
+  trajlo_simulate --scenario=hall_os1_16 --output=noisy --set=lidar.range_sigma_m=0.05,motion.speed_mps=5
+      `lidar.` is every LiDAR of the rig, `lidar0.` the first
+  trajlo_simulate --scenario=hall_os1_16 --output=again --set=motion.kind=replay,motion.replay_file=run.tum
+      flies a trajectory of yours in the hall
+  trajlo_simulate --scenario=hall_os1_16 --output=broken --set=faults.dropped_scan_fraction=0.05
+
+Exit codes: 0 done, 1 wrong usage, 5 the output cannot be written.)";
+
+/// `key=value,key=value`. A piece without '=' belongs to the value before it, which lets a value
+/// hold commas: lidar0.T_body_lidar=0,0,0.1,0,0,0,1,seed=2.
+void ApplySettings(const std::string& settings, Scenario* scenario) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  std::istringstream stream(settings);
+  for (std::string piece; std::getline(stream, piece, ',');) {
+    const std::size_t equals = piece.find('=');
+    if (equals != std::string::npos) {
+      pairs.emplace_back(piece.substr(0, equals), piece.substr(equals + 1));
+    } else if (!pairs.empty()) {
+      pairs.back().second += "," + piece;
+    } else {
+      throw std::invalid_argument("--set: expected key=value, got '" + piece + "'");
+    }
+  }
+  for (const auto& [key, value] : pairs) trajlo::simulation::SetParameter(scenario, key, value);
+}
+
+Scenario ScenarioFromFlags() {
+  if (FLAGS_scenario.empty()) throw std::invalid_argument("--scenario is missing; try --list");
+  Scenario scenario = trajlo::simulation::MakeScenario(FLAGS_scenario);
+  if (FLAGS_duration_s > 0.0) scenario.duration_s = FLAGS_duration_s;
+  if (FLAGS_seed != 0) scenario.seed = static_cast<std::uint64_t>(FLAGS_seed);
+  ApplySettings(FLAGS_set, &scenario);
+  return scenario;
+}
+
+/// The examples, and the flags of this command only (gflags would add those of all libraries).
+void PrintHelp() {
+  std::printf("%s\n\nFlags:\n", kHelp);
+  std::vector<gflags::CommandLineFlagInfo> flags;
+  gflags::GetAllFlags(&flags);
+  for (const gflags::CommandLineFlagInfo& flag : flags) {
+    if (flag.filename.find("trajlo_simulate") == std::string::npos) continue;
+    std::printf("  --%-16s %s\n", flag.name.c_str(), flag.description.c_str());
+  }
+}
+
+void List() {
+  for (const std::string& name : trajlo::simulation::ScenarioNames()) {
+    std::printf("%-28s %s\n", name.c_str(),
+                trajlo::simulation::MakeScenario(name).description.c_str());
+  }
+}
+
+void ListParameters(Scenario scenario) {
+  for (const auto& parameter : trajlo::simulation::Parameters(&scenario)) {
+    std::printf("%s=%s\n", parameter.key.c_str(),
+                trajlo::simulation::ParameterText(parameter).c_str());
+  }
+}
+
+/// Makes sure that nothing is lost, and that nothing of an older recording stays behind.
+void PrepareOutput(const fs::path& output) {
+  std::error_code error;
+  if (fs::exists(output, error) && !fs::is_empty(output, error)) {
+    if (!FLAGS_overwrite) {
+      throw std::runtime_error("'" + output.string() +
+                               "' is not empty; choose another folder or add --overwrite");
+    }
+    for (const char* old : {"scans", "velodyne"}) fs::remove_all(output / old, error);
+    for (int id = 0; fs::remove_all(output / ("lidar" + std::to_string(id)), error) > 0; ++id) {
+    }
+    for (const char* old : {"timestamps.txt", "times.txt", "poses.txt"}) {
+      fs::remove(output / old, error);
+    }
+  }
+}
+
+void Run(const trajlo::simulation::Simulator& simulator) {
+  const auto begin = std::chrono::steady_clock::now();
+  trajlo::simulation::RecordingWriter writer(simulator, FLAGS_output);
+  trajlo::simulation::SimulateScans(simulator, FLAGS_threads,
+                                    [&](const auto& scan) { writer.Write(scan); });
+  writer.Finish();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::printf(
+      "%s: %.1f s, %lld scans, %.2f million points in %s\n%.1f s to simulate, %.2f million "
+      "points a second\n",
+      simulator.scenario().name.c_str(), simulator.scenario().duration_s,
+      static_cast<long long>(writer.scans()), 1e-6 * static_cast<double>(writer.points()),
+      FLAGS_output.c_str(), seconds, 1e-6 * static_cast<double>(writer.points()) / seconds);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  gflags::SetUsageMessage(kHelp);
+  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
+  if (FLAGS_help) {
+    PrintHelp();
+    return kOk;
+  }
+  gflags::HandleCommandLineHelpFlags();
+  try {
+    if (argc > 1) throw std::invalid_argument(std::string("unexpected argument '") + argv[1] + "'");
+    if (FLAGS_list) {
+      List();
+      return kOk;
+    }
+    const Scenario scenario = ScenarioFromFlags();
+    if (FLAGS_list_parameters) {
+      ListParameters(scenario);
+      return kOk;
+    }
+    if (FLAGS_output.empty()) throw std::invalid_argument("--output is missing");
+    const trajlo::simulation::Simulator simulator(scenario);
+    try {
+      PrepareOutput(FLAGS_output);
+      Run(simulator);
+    } catch (const std::runtime_error& error) {
+      std::fprintf(stderr, "trajlo_simulate: %s\n", error.what());
+      return kOutputNotWritable;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "trajlo_simulate: %s\n", error.what());
+    return kUsage;
+  }
+  return kOk;
+}

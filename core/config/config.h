@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/config/config_error.h"
+#include "core/estimation/odometry.h"
+#include "core/io/scan_folder.h"
+
+namespace trajlo {
+
+/// All that a run can be told, with the defaults of the structs that it is made of. Each option has
+/// a dotted key such as `window.segments`, under which it stands in YAML as nested maps.
+struct RunConfig {
+  ScanFolderOptions input;
+  OdometryOptions odometry;
+};
+
+/// Sets what the YAML file says and leaves all else as it is, so that several files can be loaded
+/// one over the other. Throws ConfigError with file, line and column on an unreadable file, an
+/// unknown key (naming the nearest), a repeated key, a wrong type, and a value out of range.
+void LoadConfigFile(const std::filesystem::path& path, RunConfig* config);
+
+/// The same for YAML in memory; `name` stands for the file in messages.
+void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config);
+
+/// Sets "key=value,key=value"; values are written as in YAML, and commas within brackets belong to
+/// the value. Throws ConfigError; `name` stands for the origin of the text in messages.
+void ApplyOverrides(std::string_view settings, RunConfig* config,
+                    const std::string& name = "--set");
+
+/// Throws ConfigError if options that are fine each by itself contradict each other.
+void CheckConfig(const RunConfig& config);
+
+/// The whole configuration as commented YAML. Loading it gives the same values to the last bit.
+std::string DumpConfig(const RunConfig& config);
+
+/// One option, for sweeps and for help.
+struct KeyInfo {
+  std::string key;            ///< "window.segments"
+  std::string allowed;        ///< "a whole number from 1 to 20", "true or false", "ceres | ..."
+  std::string default_value;  ///< As YAML.
+  std::string doc;            ///< One sentence.
+};
+
+/// Every option, in the order of the dump.
+std::vector<KeyInfo> ListKeys();
+
+}  // namespace trajlo

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// What must hold between options: each check names both keys, their values and the mend.
+#include "core/config/config.h"
+#include "core/config/yaml_scalars.h"
+
+namespace trajlo {
+namespace {
+
+struct Value {
+  const char* key;
+  double value;
+};
+
+std::string Text(const Value& v) { return std::string(v.key) + " (" + NumberText(v.value) + ")"; }
+
+void RequireLess(const Value& a, const Value& b, const char* why) {
+  if (a.value < b.value) return;
+  throw ConfigError(Text(a) + " must be less than " + Text(b) + ": " + why);
+}
+
+void RequireAtMost(const Value& a, const Value& b, const char* why) {
+  if (a.value <= b.value) return;
+  throw ConfigError(Text(a) + " must not exceed " + Text(b) + ": " + why);
+}
+
+}  // namespace
+
+void CheckConfig(const RunConfig& config) {
+  const SegmenterOptions& segmenter = config.odometry.segmenter;
+  const MapOptions& map = config.odometry.map.finest;
+  const PlaneFitOptions& plane = config.odometry.association.plane;
+  const AdaptiveThresholdOptions& threshold = config.odometry.threshold;
+  const WeightOptions& weights = config.odometry.weights;
+
+  RequireLess({"sensor.min_range_m", segmenter.min_range_m},
+              {"sensor.max_range_m", segmenter.max_range_m}, "otherwise no point is left");
+  RequireAtMost({"segmenter.map_voxel_m", segmenter.map_voxel_m},
+                {"segmenter.registration_voxel_m", segmenter.registration_voxel_m},
+                "the points to register are taken from those for the map");
+  RequireAtMost({"segmenter.interval_s", segmenter.interval_s},
+                {"segmenter.first_interval_s", segmenter.first_interval_s},
+                "the first interval fills the map, and needs at least one segment's points");
+  RequireLess({"segmenter.interval_s", segmenter.interval_s},
+              {"segmenter.max_gap_s", segmenter.max_gap_s},
+              "otherwise the time between two segments would count as a pause");
+  RequireLess({"map.min_point_spacing_m", map.min_point_spacing_m},
+              {"map.voxel_size_m", map.voxel_size_m},
+              "otherwise a voxel holds one point, and no plane is found");
+  RequireLess({"map.voxel_size_m", map.voxel_size_m}, {"map.radius_m", map.radius_m},
+              "otherwise the map holds nothing");
+  RequireAtMost({"association.plane.min_neighbors", static_cast<double>(plane.min_neighbors)},
+                {"association.plane.neighbors", static_cast<double>(plane.neighbors)},
+                "a query asks for `neighbors` points, and a plane needs `min_neighbors` of them");
+  RequireAtMost({"threshold.min_m", threshold.min_m}, {"threshold.initial_m", threshold.initial_m},
+                "the threshold starts within its bounds");
+  RequireAtMost({"threshold.initial_m", threshold.initial_m}, {"threshold.max_m", threshold.max_m},
+                "the threshold starts within its bounds");
+  RequireAtMost({"weights.min_kernel_m", weights.min_kernel_m},
+                {"weights.max_kernel_m", weights.max_kernel_m},
+                "the kernel's width lies between them");
+}
+
+}  // namespace trajlo

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "core/config/extrinsics_yaml.h"
+
+#include <cmath>
+
+#include "core/config/yaml_scalars.h"
+
+namespace trajlo {
+namespace {
+
+constexpr char kForm[] =
+    "expected a list with one transform per LiDAR, each {translation_m: [x, y, z], rotation: [qx, "
+    "qy, qz, qw]} or {matrix: [[...4 numbers], [...], [...]]}";
+
+/// Appends the numbers of a list, row by row if it holds lists.
+void CollectNumbers(const YAML::Node& node, std::vector<double>* numbers) {
+  if (node.IsSequence()) {
+    for (const YAML::Node& item : node) CollectNumbers(item, numbers);
+    return;
+  }
+  double number = 0.0;
+  if (!node.IsScalar() || !ParseNumber(node.Scalar(), &number)) {
+    throw ErrorAt(node, "expected a finite number" +
+                            (node.IsScalar() ? ", found '" + node.Scalar() + "'" : std::string()));
+  }
+  numbers->push_back(number);
+}
+
+std::vector<double> Numbers(const YAML::Node& node) {
+  std::vector<double> numbers;
+  CollectNumbers(node, &numbers);
+  return numbers;
+}
+
+Eigen::Quaterniond ParseQuaternion(const YAML::Node& node) {
+  const std::vector<double> v = Numbers(node);
+  if (v.size() != 4) {
+    throw ErrorAt(node,
+                  "rotation needs 4 numbers [qx, qy, qz, qw], found " + std::to_string(v.size()));
+  }
+  const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
+  if (std::abs(q.norm() - 1.0) > 1e-3) {
+    throw ErrorAt(node, "rotation must be a unit quaternion [qx, qy, qz, qw], its norm is " +
+                            NumberText(q.norm()));
+  }
+  // One that is normalised already keeps its bits, so that a dumped config loads back unchanged.
+  return std::abs(q.squaredNorm() - 1.0) < 1e-15 ? q : q.normalized();
+}
+
+SE3 ParseMatrix(const YAML::Node& node) {
+  const std::vector<double> v = Numbers(node);
+  if (v.size() != 12 && v.size() != 16) {
+    throw ErrorAt(node, "matrix needs 3 or 4 rows of 4 numbers, found " + std::to_string(v.size()) +
+                            " numbers");
+  }
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) R(row, column) = v[4 * row + column];
+    t[row] = v[4 * row + 3];
+  }
+  const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (error > 1e-3 || R.determinant() < 0.0) {
+    throw ErrorAt(node, "the 3x3 part of matrix is no rotation: RᵀR differs from I by " +
+                            NumberText(error) + ", its determinant is " +
+                            NumberText(R.determinant()));
+  }
+  return {Eigen::Quaterniond(R).normalized(), t};
+}
+
+SE3 ParseTransform(const YAML::Node& node) {
+  if (!node.IsMap()) throw ErrorAt(node, kForm);
+  SE3 T;
+  for (const auto& entry : node) {
+    const std::string& name = entry.first.Scalar();
+    if (name == "translation_m") {
+      const std::vector<double> v = Numbers(entry.second);
+      if (v.size() != 3) {
+        throw ErrorAt(entry.second,
+                      "translation_m needs 3 numbers [x, y, z], found " + std::to_string(v.size()));
+      }
+      T.t = Eigen::Vector3d(v[0], v[1], v[2]);
+    } else if (name == "rotation") {
+      T.q = ParseQuaternion(entry.second);
+    } else if (name == "matrix" && node.size() == 1) {
+      T = ParseMatrix(entry.second);
+    } else {
+      throw ErrorAt(entry.first, "unexpected '" + name + "'; " + kForm);
+    }
+  }
+  return T;
+}
+
+std::string ListText(std::initializer_list<double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "[" : ", ") + NumberText(value);
+  return text + "]";
+}
+
+}  // namespace
+
+std::vector<SE3> ParseExtrinsics(const YAML::Node& node) {
+  if (!node.IsSequence()) throw ErrorAt(node, kForm);
+  std::vector<SE3> extrinsics;
+  for (const YAML::Node& item : node) extrinsics.push_back(ParseTransform(item));
+  return extrinsics;
+}
+
+std::string ExtrinsicText(const SE3& T) {
+  return "{translation_m: " + ListText({T.t.x(), T.t.y(), T.t.z()}) +
+         ", rotation: " + ListText({T.q.x(), T.q.y(), T.q.z(), T.q.w()}) + "}";
+}
+
+}  // namespace trajlo

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "core/config/edit_distance.h"
+#include "core/config/option.h"
+#include "core/config/yaml_scalars.h"
+
+namespace trajlo {
+namespace {
+
+/// Walks nested maps and sets the options whose keys it meets.
+class Loader {
+ public:
+  /// Without `with_places`, messages name no line: the text is a part of a command line.
+  Loader(std::string name, bool with_places, RunConfig* config)
+      : name_(std::move(name)), with_places_(with_places), options_(BindOptions(config)) {}
+
+  /// Sets one option, or complains about its key or value at the place of `key_node`.
+  void Set(const std::string& key, const YAML::Node& key_node, const YAML::Node& value) {
+    const Option* option = Find(key);
+    if (option == nullptr) FailUnknown(key, key_node);
+    if (!seen_.insert(key).second) Fail(key_node, "'" + key + "' is set twice");
+    try {
+      SetOption(value, *option);
+    } catch (const ValueError& error) {
+      throw ConfigError(Where(error), "'" + key + "' " + error.what);
+    }
+  }
+
+  void Walk(const std::string& prefix, const YAML::Node& map) {
+    for (const auto& entry : map) {
+      if (!entry.first.IsScalar()) Fail(entry.first, "a key must be a word");
+      const std::string key = prefix + entry.first.Scalar();
+      if (!IsSection(key)) {
+        Set(key, entry.first, entry.second);
+      } else if (entry.second.IsMap()) {
+        Walk(key + ".", entry.second);
+      } else if (!entry.second.IsNull()) {  // A section may be empty.
+        Fail(entry.second, "'" + key + "' is a section, which holds the keys " + KeysOf(key));
+      }
+    }
+  }
+
+  [[noreturn]] void Fail(const YAML::Node& node, const std::string& what) const {
+    throw ConfigError(Where(ErrorAt(node, what)), what);
+  }
+
+ private:
+  std::string Where(const ValueError& at) const {
+    if (!with_places_ || at.line == 0) return name_;
+    return name_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
+  }
+
+  const Option* Find(const std::string& key) const {
+    const auto found = std::find_if(options_.begin(), options_.end(),
+                                    [&](const Option& option) { return option.key == key; });
+    return found == options_.end() ? nullptr : &*found;
+  }
+
+  bool IsSection(const std::string& key) const {
+    return std::any_of(options_.begin(), options_.end(), [&](const Option& option) {
+      return option.key.compare(0, key.size() + 1, key + ".") == 0;
+    });
+  }
+
+  std::string KeysOf(const std::string& section) const {
+    std::string text;
+    for (const Option& option : options_) {
+      if (option.key.compare(0, section.size() + 1, section + ".") != 0) continue;
+      text += (text.empty() ? "" : ", ") + option.key;
+    }
+    return text;
+  }
+
+  [[noreturn]] void FailUnknown(const std::string& key, const YAML::Node& node) const {
+    std::vector<std::string> keys;
+    for (const Option& option : options_) keys.push_back(option.key);
+    const std::string nearest = NearestKey(key, keys);
+    const std::string section = key.substr(0, key.find('.'));
+    std::string mend = "; trajlo_run --show_config lists all keys";
+    if (!nearest.empty()) {
+      mend = "; did you mean '" + nearest + "'?";
+    } else if (IsSection(section)) {
+      mend = "; '" + section + "' has the keys " + KeysOf(section);
+    }
+    Fail(node, "unknown key '" + key + "'" + mend);
+  }
+
+  std::string name_;
+  bool with_places_;
+  std::vector<Option> options_;
+  std::set<std::string> seen_;
+};
+
+/// Splits at the commas that stand outside brackets, braces and quotes.
+std::vector<std::string> SplitSettings(std::string_view text) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  char quote = 0;
+  for (const char c : text) {
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    } else if (c == ',' && depth <= 0) {
+      parts.emplace_back();
+      continue;
+    }
+    parts.back() += c;
+  }
+  return parts;
+}
+
+std::string Trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\n");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
+}
+
+}  // namespace
+
+void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config) {
+  YAML::Node root;
+  try {
+    root = YAML::Load(yaml);
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ":" +
+                          std::to_string(error.mark.column + 1),
+                      "this is not valid YAML: " + error.msg);
+  }
+  if (root.IsNull()) return;
+  // Work on a copy: a file with an error changes nothing.
+  RunConfig loaded = *config;
+  Loader loader(name, true, &loaded);
+  if (!root.IsMap()) {
+    loader.Fail(root, "expected sections with keys, such as 'window: {segments: 4}'");
+  }
+  loader.Walk("", root);
+  *config = loaded;
+}
+
+void LoadConfigFile(const std::filesystem::path& path, RunConfig* config) {
+  std::error_code error;
+  std::ifstream file(path);
+  if (!file || std::filesystem::is_directory(path, error)) {
+    throw ConfigError(path.string(), "there is no such config file, or it cannot be read");
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  LoadConfigText(text.str(), path.string(), config);
+}
+
+void ApplyOverrides(std::string_view settings, RunConfig* config, const std::string& name) {
+  RunConfig changed = *config;
+  Loader loader(name, false, &changed);
+  for (const std::string& part : SplitSettings(settings)) {
+    const std::string setting = Trimmed(part);
+    if (setting.empty()) continue;
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw ConfigError(name, "expected key=value, found '" + setting + "'");
+    }
+    const std::string key = Trimmed(setting.substr(0, equals));
+    const std::string value = setting.substr(equals + 1);
+    YAML::Node node;
+    try {
+      node = YAML::Load(value);
+    } catch (const YAML::Exception& error) {
+      throw ConfigError(name, "'" + key + "' has a value that is not valid YAML: '" + value + "'");
+    }
+    loader.Set(key, YAML::Node(key), node);
+  }
+  *config = changed;
+}
+
+}  // namespace trajlo

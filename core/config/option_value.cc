@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Values of options from YAML and to YAML.
+#include <algorithm>
+
+#include "core/config/edit_distance.h"
+#include "core/config/extrinsics_yaml.h"
+#include "core/config/option.h"
+#include "core/config/yaml_scalars.h"
+
+namespace trajlo {
+namespace {
+
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " | ") + word;
+  return text;
+}
+
+/// The number of `node` within the bounds of `field`, or a ValueError.
+template <typename Number, typename Field>
+Number NumberWithin(const YAML::Node& node, const Field& field, const Option& option) {
+  Number number{};
+  if (!ParseNumber(node.Scalar(), &number) || !(number >= field.min && number <= field.max)) {
+    throw ErrorAt(node, "must be " + AllowedText(option) + ", found '" + node.Scalar() + "'");
+  }
+  return number;
+}
+
+bool ParseFlag(const YAML::Node& node) {
+  for (const char* word : {"true", "yes", "on"}) {
+    if (node.Scalar() == word) return true;
+  }
+  for (const char* word : {"false", "no", "off"}) {
+    if (node.Scalar() == word) return false;
+  }
+  throw ErrorAt(node, "must be true or false, found '" + node.Scalar() + "'");
+}
+
+std::size_t ParseChoice(const YAML::Node& node, const ChoiceField& field) {
+  const auto found = std::find(field.names.begin(), field.names.end(), node.Scalar());
+  if (found != field.names.end()) return static_cast<std::size_t>(found - field.names.begin());
+  const std::string nearest = NearestKey(node.Scalar(), field.names);
+  throw ErrorAt(node, "must be one of " + Join(field.names) + ", found '" + node.Scalar() + "'" +
+                          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+std::string Quoted(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter.SetStringFormat(YAML::DoubleQuoted);
+  emitter << text;
+  return emitter.c_str();
+}
+
+}  // namespace
+
+void SetOption(const YAML::Node& node, const Option& option) {
+  if (const auto* extrinsics = std::get_if<ExtrinsicsField>(&option.field)) {
+    *extrinsics->value = ParseExtrinsics(node);
+    return;
+  }
+  const auto* text = std::get_if<TextField>(&option.field);
+  if (text != nullptr && node.IsNull()) return text->set("");
+  if (!node.IsScalar()) {
+    throw ErrorAt(node, std::string(node.IsNull() ? "has no value" : "takes a single value") +
+                            "; it must be " + AllowedText(option));
+  }
+  std::visit(
+      Overloaded{
+          [&](const FlagField& field) { *field.value = ParseFlag(node); },
+          [&](const IntegerField& field) { *field.value = NumberWithin<int>(node, field, option); },
+          [&](const RealField& field) { *field.value = NumberWithin<double>(node, field, option); },
+          [&](const TextField& field) { field.set(node.Scalar()); },
+          [&](const ChoiceField& field) { field.set(ParseChoice(node, field)); },
+          [](const ExtrinsicsField&) {},
+      },
+      option.field);
+}
+
+std::string ValueText(const Option& option) {
+  return std::visit(
+      Overloaded{
+          [](const FlagField& field) { return std::string(*field.value ? "true" : "false"); },
+          [](const IntegerField& field) { return std::to_string(*field.value); },
+          [](const RealField& field) { return NumberText(*field.value); },
+          [](const TextField& field) { return Quoted(field.get()); },
+          [](const ChoiceField& field) { return field.names[field.get()]; },
+          [](const ExtrinsicsField& field) {
+            std::string text;
+            for (const SE3& T : *field.value) text += (text.empty() ? "" : ", ") + ExtrinsicText(T);
+            return "[" + text + "]";
+          },
+      },
+      option.field);
+}
+
+std::string AllowedText(const Option& option) {
+  return std::visit(
+      Overloaded{
+          [](const FlagField&) { return std::string("true or false"); },
+          [](const IntegerField& field) {
+            return "a whole number from " + std::to_string(field.min) + " to " +
+                   std::to_string(field.max);
+          },
+          [](const RealField& field) {
+            return "a number from " + NumberText(field.min) + " to " + NumberText(field.max);
+          },
+          [](const TextField&) { return std::string("a text"); },
+          [](const ChoiceField& field) { return Join(field.names); },
+          [](const ExtrinsicsField&) { return std::string("a list, one transform per LiDAR"); },
+      },
+      option.field);
+}
+
+}  // namespace trajlo

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "core/report/run_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/atomic_file.h"
+#include "core/io/stamp_text.h"
+#include "core/report/versions.h"
+
+namespace trajlo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Seconds as text: a double would lose nanoseconds of times since 1970.
+Json SecondsOrNull(const std::optional<std::int64_t>& t_ns) {
+  return t_ns ? Json(FormatSeconds(*t_ns)) : Json(nullptr);
+}
+
+Json VersionsJson() {
+  const Versions v = GetVersions();
+  return {{"trajlo", v.trajlo},
+          {"git", v.git},
+          {"eigen", v.eigen},
+          {"ceres", v.ceres},
+          {"compiler", v.compiler}};
+}
+
+Json InputJson(const RunSummary& s) {
+  return {{"paths", s.inputs},
+          {"understood_as", s.input_description},
+          {"scans",
+           {{"listed", s.read.scans_listed},
+            {"read", s.read.scans_read},
+            {"damaged", s.read.scans_damaged},
+            {"skipped", s.read.scans_skipped}}},
+          {"points",
+           {{"received", s.points.received},
+            {"kept", s.points.Kept()},
+            {"not_finite", s.points.not_finite},
+            {"too_near", s.points.too_near},
+            {"too_far", s.points.too_far},
+            {"too_late", s.points.too_late},
+            {"without_time", s.read.points_without_time}}}};
+}
+
+Json ResultJson(const RunSummary& s) {
+  return {{"begin_s", SecondsOrNull(s.begin_ns)},
+          {"end_s", SecondsOrNull(s.end_ns)},
+          {"duration_s", s.DataSeconds()},
+          {"poses_written", s.poses_written},
+          {"poses_flagged", s.poses_flagged},
+          {"path_length_m", s.path_length_m},
+          {"distance_to_start_m", s.distance_to_start_m},
+          {"lost_at_s", SecondsOrNull(s.lost_at_ns)},
+          {"map_points", s.map_points}};
+}
+
+Json WindowsJson(const WindowTotals& w) {
+  return {{"count", w.windows},
+          {"points_mean", w.Mean(w.points)},
+          {"inlier_share", w.InlierShare()},
+          {"map_queries_mean", w.Mean(w.searched)},
+          {"rounds_mean", w.Mean(w.rounds)},
+          {"iterations_mean", w.Mean(w.iterations)},
+          {"flagged", w.flags}};
+}
+
+Json ResourcesJson(const RunSummary& s) {
+  return {{"wall_s", s.wall_s},
+          {"cpu_s", s.cpu_s},
+          {"real_time_factor", s.RealTimeFactor()},
+          {"estimation_wall_s", s.estimation_s},
+          {"estimation_ms_per_data_second", {{"median", s.median_ms}, {"p95", s.p95_ms}}},
+          {"stages_ms",
+           {{"segment", s.windows.segment_ms},
+            {"associate", s.windows.associate_ms},
+            {"solve", s.windows.solve_ms},
+            {"marginalize", s.windows.marginalize_ms},
+            {"map", s.windows.map_ms}}},
+          {"peak_memory_mb", s.peak_memory_mb}};
+}
+
+}  // namespace
+
+std::string RunJson(const RunSummary& s) {
+  const Json json = {
+      {"exit", {{"code", s.exit_code}, {"reason", s.exit_reason}, {"message", s.message}}},
+      {"versions", VersionsJson()},
+      {"command_line", s.command_line},
+      {"output", s.output},
+      {"solver", s.solver},
+      {"threads", s.threads},
+      {"input", InputJson(s)},
+      {"result", ResultJson(s)},
+      {"windows", WindowsJson(s.windows)},
+      {"warnings", s.warnings},
+      {"resources", ResourcesJson(s)},
+  };
+  // Paths need not be UTF-8; such bytes are replaced rather than thrown at the user.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void WriteRunJson(const std::filesystem::path& path, const RunSummary& summary) {
+  WriteTextFile(path, RunJson(summary), IfExists::kReplace);
+}
+
+}  // namespace trajlo

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/scan_source.h"
+#include "core/report/window_totals.h"
+#include "core/sensing/segment_cloud.h"
+
+namespace trajlo {
+
+/// All that is said about a run when it is over, in run.json and in the table on the screen.
+struct RunSummary {
+  // How it ended. The reason is one word: running (or killed), ok, partial_input, ...
+  int exit_code = 0;
+  std::string exit_reason = "running";
+  std::string message;
+  std::vector<std::string> warnings;
+
+  // What was asked.
+  std::vector<std::string> command_line;
+  std::vector<std::string> inputs;
+  std::string output;
+  std::string solver;
+  int threads = 0;
+
+  // What was read. The description says how stamps and point times are understood, and why.
+  std::vector<std::string> input_description;
+  ReadReport read;
+  PointCounts points;
+
+  // What came out.
+  WindowTotals windows;
+  std::size_t poses_written = 0;
+  std::size_t poses_flagged = 0;
+  std::size_t map_points = 0;
+  std::optional<std::int64_t> begin_ns, end_ns, lost_at_ns;
+  double path_length_m = 0.0;
+  double distance_to_start_m = 0.0;
+
+  // What it took. Only these numbers differ between two equal runs.
+  double wall_s = 0.0;        ///< Reading, estimating and writing.
+  double cpu_s = 0.0;         ///< The same, over all threads.
+  double estimation_s = 0.0;  ///< Wall time of the estimator alone.
+  double median_ms = 0.0;     ///< Estimation per second of data.
+  double p95_ms = 0.0;
+  double peak_memory_mb = 0.0;
+
+  double DataSeconds() const {
+    return begin_ns && end_ns ? 1e-9 * static_cast<double>(*end_ns - *begin_ns) : 0.0;
+  }
+  double RealTimeFactor() const { return wall_s > 0.0 ? DataSeconds() / wall_s : 0.0; }
+};
+
+}  // namespace trajlo

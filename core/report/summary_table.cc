@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "core/report/summary_table.h"
+
+#include <cstdio>
+
+#include "core/io/stamp_text.h"
+
+namespace trajlo {
+namespace {
+
+template <typename... Values>
+std::string Format(const char* format, Values... values) {
+  char text[400];
+  std::snprintf(text, sizeof(text), format, values...);
+  return text;
+}
+
+std::string Line(const char* name, const std::string& text) {
+  return Format("  %-12s", name) + text + "\n";
+}
+
+void AddCount(std::int64_t count, const char* what, std::string* text) {
+  if (count == 0) return;
+  *text += (text->empty() ? "" : ", ") + std::to_string(count) + " " + what;
+}
+
+std::string Dropped(const RunSummary& s) {
+  std::string text;
+  AddCount(s.points.not_finite, "not finite", &text);
+  AddCount(s.points.too_near, "too near", &text);
+  AddCount(s.points.too_far, "too far", &text);
+  AddCount(s.points.too_late, "too late", &text);
+  return text.empty() ? "nothing" : text + " of " + std::to_string(s.points.received) + " points";
+}
+
+std::string Flagged(const WindowTotals& windows) {
+  std::string text;
+  for (const auto& [name, count] : windows.flags) AddCount(count, name.c_str(), &text);
+  return text;
+}
+
+/// "associate 61 %, solve 20 %, ..." of the time that the windows took.
+std::string Stages(const WindowTotals& w) {
+  const double sum = w.segment_ms + w.associate_ms + w.solve_ms + w.marginalize_ms + w.map_ms;
+  if (sum <= 0.0) return "";
+  return Format(
+      "segment %.0f %%, associate %.0f %%, solve %.0f %%, marginalize %.0f %%, map %.0f %%",
+      100.0 * w.segment_ms / sum, 100.0 * w.associate_ms / sum, 100.0 * w.solve_ms / sum,
+      100.0 * w.marginalize_ms / sum, 100.0 * w.map_ms / sum);
+}
+
+}  // namespace
+
+std::string SummaryTable(const RunSummary& s) {
+  std::string table;
+  table += Line("input", Format("%zu of %zu scans, %.2f million points, %.1f s", s.read.scans_read,
+                                s.read.scans_listed, 1e-6 * static_cast<double>(s.points.received),
+                                s.DataSeconds()));
+  table += Line("dropped", Dropped(s));
+  table += Line("trajectory", Format("%zu poses, %.2f m long, ends %.2f m from its start",
+                                     s.poses_written, s.path_length_m, s.distance_to_start_m));
+  table +=
+      Line("windows", std::to_string(s.windows.windows) +
+                          Format(", %.0f points each, %.0f %% inliers, %.1f rounds",
+                                 s.windows.Mean(s.windows.points), 100.0 * s.windows.InlierShare(),
+                                 s.windows.Mean(s.windows.rounds)));
+  const std::string flagged = Flagged(s.windows);
+  if (!flagged.empty()) table += Line("flagged", flagged);
+  table +=
+      Line("speed", Format("%.1f x real time; per second of data: median %.0f ms, 95 %% within "
+                           "%.0f ms",
+                           s.RealTimeFactor(), s.median_ms, s.p95_ms));
+  const std::string stages = Stages(s.windows);
+  if (!stages.empty()) table += Line("", stages);
+  table += Line("memory",
+                Format("%.0f MB at most; %zu points in the map", s.peak_memory_mb, s.map_points));
+  if (!s.warnings.empty()) {
+    table += Line("warnings", Format("%zu, listed in run.json", s.warnings.size()));
+  }
+  if (s.lost_at_ns) table += Line("LOST", "at " + FormatSeconds(*s.lost_at_ns) + " s");
+  table += Line("result",
+                s.exit_reason + " (exit code " + std::to_string(s.exit_code) + "), in " + s.output);
+  return table;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "core/report/window_csv.h"
+
+#include <charconv>
+#include <utility>
+#include <vector>
+
+#include "core/io/stamp_text.h"
+
+namespace trajlo {
+namespace {
+
+/// A line of the table: names and values are added together, so that they cannot get apart.
+class Row {
+ public:
+  void Add(const char* name, const std::string& value) {
+    names_ += (names_.empty() ? "" : ",") + std::string(name);
+    values_ += (values_.empty() ? "" : ",") + value;
+  }
+  template <typename Number>
+  void Add(const char* name, Number value) {
+    char text[40];
+    const auto [end, error] = std::to_chars(text, text + sizeof(text), value);
+    Add(name, std::string(text, error == std::errc() ? end : text));
+  }
+
+  std::string Names() const { return names_ + "\n"; }
+  std::string Values() const { return values_ + "\n"; }
+
+ private:
+  std::string names_, values_;
+};
+
+Row MakeRow(const WindowStatistics& w) {
+  Row row;
+  row.Add("index", w.index);
+  row.Add("begin_s", FormatSeconds(w.begin_ns));
+  row.Add("end_s", FormatSeconds(w.end_ns));
+  row.Add("segments", w.segments);
+  row.Add("points", w.points);
+  row.Add("inliers", w.inliers);
+  row.Add("inlier_share", w.InlierShare());
+  row.Add("searched", w.searched);
+  row.Add("rounds", w.rounds);
+  row.Add("iterations", w.iterations);
+  row.Add("cost_registration", w.cost_registration);
+  row.Add("cost_smoothness", w.cost_smoothness);
+  row.Add("cost_prior", w.cost_prior);
+  row.Add("threshold_m", w.threshold_m);
+  row.Add("kernel_m", w.kernel_m);
+  row.Add("smallest_eigenvalue", w.smallest_eigenvalue);
+  row.Add("weak_rho_x", w.weak_direction[0]);
+  row.Add("weak_rho_y", w.weak_direction[1]);
+  row.Add("weak_rho_z", w.weak_direction[2]);
+  row.Add("weak_theta_x", w.weak_direction[3]);
+  row.Add("weak_theta_y", w.weak_direction[4]);
+  row.Add("weak_theta_z", w.weak_direction[5]);
+  row.Add("weak_axis", AxisName(w.weak_direction));
+  row.Add("last_step_m", w.last_step_m);
+  row.Add("last_step_rad", w.last_step_rad);
+  row.Add("segment_ms", w.milliseconds_segment);
+  row.Add("associate_ms", w.milliseconds_associate);
+  row.Add("solve_ms", w.milliseconds_solve);
+  row.Add("marginalize_ms", w.milliseconds_marginalize);
+  row.Add("map_ms", w.milliseconds_map);
+  row.Add("flags", w.flags);
+  row.Add("flag_names", FlagNames(w.flags));
+  return row;
+}
+
+}  // namespace
+
+std::string FlagNames(unsigned flags) {
+  static const std::vector<std::pair<unsigned, const char*>> names = {
+      {kFlagNoPoints, "no_points"},    {kFlagGap, "gap"},
+      {kFlagReverted, "reverted"},     {kFlagNotConverged, "not_converged"},
+      {kFlagDegenerate, "degenerate"}, {kFlagLost, "lost"},
+  };
+  std::string text;
+  for (const auto& [flag, name] : names) {
+    if ((flags & flag) != 0) text += (text.empty() ? "" : "|") + std::string(name);
+  }
+  return text;
+}
+
+std::string AxisName(const Vector6d& direction) {
+  static const char* const names[] = {"x", "y", "z", "about_x", "about_y", "about_z"};
+  int largest = 0;
+  const double size = direction.cwiseAbs().maxCoeff(&largest);
+  return size > 0.0 ? names[largest] : "";
+}
+
+WindowCsvWriter::WindowCsvWriter(const std::filesystem::path& path, IfExists if_exists)
+    : file_(path, if_exists) {
+  file_.Write(MakeRow({}).Names());
+}
+
+void WindowCsvWriter::Append(const WindowStatistics& window) {
+  file_.Write(MakeRow(window).Values());
+}
+
+}  // namespace trajlo

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing, builds Release, and runs the tests.
+#   scripts/test.sh                  all tests
+#   scripts/test.sh --label fast     only those with a label
+# Further arguments go to ctest, for instance `-R Config`.
+set -euo pipefail
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+build="${TRAJLO_BUILD_DIR:-$root/build}"
+
+ctest_arguments=()
+while [[ $# -gt 0 ]]; do
+  case "$1" in
+    --label)
+      [[ $# -ge 2 ]] || { echo "test.sh: --label needs a value: fast or slow" >&2; exit 1; }
+      ctest_arguments+=(--label-regex "^$2$")
+      shift 2
+      ;;
+    -h | --help)
+      sed -n '3,7p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
+      exit 0
+      ;;
+    *)
+      ctest_arguments+=("$1")
+      shift
+      ;;
+  esac
+done
+
+"$root/scripts/install_dependencies.sh"
+"$root/scripts/build.sh"
+# A test that hangs is a failure, not a reason to wait for ever.
+ctest --test-dir "$build" --parallel "$(nproc)" --timeout 300 --output-on-failure \
+  --no-tests=error "${ctest_arguments[@]}"

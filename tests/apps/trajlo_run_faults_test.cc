@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// What the command does when something is wrong: the exit codes that scripts rely on, a message
+// that says what to do, and results that are kept.
+#include <csignal>
+
+#include "tests/apps/trajlo_run_testing.h"
+
+namespace trajlo::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST_F(TrajloRunTest, WrongUsageIsOne) {
+  const auto error = [](const std::vector<std::string>& arguments) {
+    const Outcome outcome = Call(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(error({}), AllOf(HasSubstr("--input is missing"), HasSubstr("--help")));
+  EXPECT_THAT(error({"--input=x"}), HasSubstr("--output is missing"));
+  EXPECT_THAT(error({"--input=x", "--output=y", "z"}), HasSubstr("unexpected argument 'z'"));
+  EXPECT_THAT(error({"--imput=x"}), HasSubstr("imput"));
+  EXPECT_THAT(error({"--input=x", "--output=y", "--set=window.segmets=3"}),
+              HasSubstr("did you mean 'window.segments'"));
+  EXPECT_THAT(error({"--input=x", "--output=y", "--solver=newton"}), HasSubstr("--solver: "));
+  EXPECT_THAT(error({"--input=x", "--output=y", "--threads=-2"}), HasSubstr("--threads: "));
+  EXPECT_THAT(error({"--input=x", "--output=y", "--at=begin"}), HasSubstr("scan-end or scan-mid"));
+  EXPECT_THAT(error({"--input=x", "--output=y", "--at=scan-end", "--rate=3"}),
+              HasSubstr("exclude each other"));
+  EXPECT_THAT(error({"--input=x", "--output=y", "--set=map.radius_m=1,map.voxel_size_m=2"}),
+              HasSubstr("map.radius_m (1.0)"));
+}
+
+TEST_F(TrajloRunTest, UnknownConfigKeyIsOneAndNamesTheLine) {
+  WriteFile(temp_ / "my.yaml", "window:\n  segmets: 3\n");
+  const Outcome outcome = Run({"--config=" + (temp_ / "my.yaml").string()});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("my.yaml:2:3: unknown key 'window.segmets'"),
+                                 HasSubstr("'window.segments'")));
+  EXPECT_FALSE(fs::exists(output()));
+}
+
+TEST_F(TrajloRunTest, MissingAndEmptyFoldersAreTwo) {
+  Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr(input()));
+  fs::create_directories(input());
+  outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr(input()));
+  EXPECT_FALSE(fs::exists(output()));
+}
+
+TEST_F(TrajloRunTest, ARecordingWithoutAnyPointIsTwo) {
+  RoomRecording room;
+  room.scans = 3;
+  room.Write(input());
+  for (int i = 0; i < room.scans; ++i)
+    RoomRecording::WriteScan(RoomRecording::File(input(), i), {});
+  const Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+}
+
+TEST_F(TrajloRunTest, ATruncatedFileIsThreeAndTheResultIsThere) {
+  RoomRecording().Write(input());
+  const fs::path file = RoomRecording::File(input(), 7);
+  fs::resize_file(file, fs::file_size(file) / 2);
+  const Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("000007.pcd"));
+  EXPECT_GT(Trajectory().size(), 25u);
+  EXPECT_EQ(RunJson()["exit"]["reason"], "partial_input");
+  EXPECT_EQ(RunJson()["input"]["scans"]["damaged"], 1);
+}
+
+TEST_F(TrajloRunTest, AnUnreadableFileIsThreeAndTheOthersAreUsed) {
+  RoomRecording().Write(input());
+  WriteFile(RoomRecording::File(input(), 9), "this is no point cloud");
+  const Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(RunJson()["input"]["scans"]["skipped"], 1);
+  EXPECT_EQ(RunJson()["input"]["scans"]["read"], 11);
+}
+
+TEST_F(TrajloRunTest, AScanOfNansIsCountedAndBridged) {
+  const RoomRecording room;
+  room.Write(input());
+  std::vector<Eigen::Vector4f> points = room.Scan(6);
+  for (Eigen::Vector4f& p : points) p.head<3>().setConstant(std::nanf(""));
+  RoomRecording::WriteScan(RoomRecording::File(input(), 6), points);
+  const Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(RunJson()["input"]["points"]["not_finite"], points.size());
+  EXPECT_LT(Trajectory().back().T_world_body.t.norm(), 1.0);
+}
+
+TEST_F(TrajloRunTest, AnEarlierResultIsFiveUnlessOverwritten) {
+  RoomRecording().Write(input());
+  ASSERT_EQ(Run().exit_code, 0);
+  const std::string before = ReadFile(Result("run.json"));
+  const Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("earlier result"), HasSubstr("--overwrite")));
+  EXPECT_EQ(ReadFile(Result("run.json")), before);
+  EXPECT_EQ(Run({"--overwrite"}).exit_code, 0);
+}
+
+TEST_F(TrajloRunTest, AnOutputThatIsNoFolderIsFive) {
+  RoomRecording().Write(input());
+  for (const char* path : {"/dev/full", "/dev/null/below"}) {
+    const Outcome outcome = Call({"--input=" + input(), std::string("--output=") + path});
+    EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(path));
+  }
+}
+
+TEST_F(TrajloRunTest, AFullDiskIsFiveWhicheverFileMeetsIt) {
+  RoomRecording().Write(input());
+  for (const char* name : {"trajectory.tum", "windows.csv", "map.ply", "config.yaml", "run.json"}) {
+    fs::remove_all(output());
+    fs::create_directories(output());
+    fs::create_symlink("/dev/full", Result(name));
+    const Outcome outcome = Run({"--overwrite"});
+    EXPECT_EQ(outcome.exit_code, 5) << name;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(name), HasSubstr("No space left"))) << name;
+  }
+}
+
+TEST_F(TrajloRunTest, ADiskThatFillsUpLaterIsFiveAndKeepsWhatWasWritten) {
+  RoomRecording room;
+  room.scans = 30;
+  room.Write(input());
+  // config.yaml needs about 10 kB; windows.csv outgrows the bound after some windows.
+  const Outcome outcome = Call({"--input=" + input(), "--output=" + output()}, 16'000);
+  EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("too large"));
+  EXPECT_EQ(RunJson()["exit"]["code"], 5);
+  EXPECT_GT(Trajectory().size(), 3u);
+}
+
+/// A run that is under way: some poses are written, and many scans are left.
+class InterruptedRunTest : public TrajloRunTest {
+ protected:
+  void SetUp() override {
+    RoomRecording room;
+    room.scans = 1;
+    room.Write(input());
+    std::ofstream stamps(temp_ / "in/timestamps.txt");
+    for (int i = 0; i < kScans; ++i) {
+      stamps << std::to_string(RoomRecording::kStart + 0.1 * i) << "\n";
+      if (i > 0)
+        fs::create_hard_link(RoomRecording::File(input(), 0), RoomRecording::File(input(), i));
+    }
+    stamps.close();
+    process_ = std::make_unique<Process>(
+        std::vector<std::string>{TRAJLO_RUN, "--input=" + input(), "--output=" + output()});
+    while (PosesWritten() < 10 && !process_->HasEnded()) usleep(1000);
+  }
+
+  std::ptrdiff_t PosesWritten() const {
+    const std::string text = ReadFile(Result("trajectory.tum"));
+    return std::count(text.begin(), text.end(), '\n');
+  }
+
+  static constexpr int kScans = 1000;
+  std::unique_ptr<Process> process_;
+};
+
+TEST_F(InterruptedRunTest, SignalsEndTheRunWithAllFilesAnd130) {
+  process_->Signal(SIGINT);
+  EXPECT_EQ(process_->Wait(), 130) << process_->Err();
+  EXPECT_EQ(RunJson()["exit"]["reason"], "interrupted");
+  EXPECT_EQ(RunJson()["result"]["poses_written"], Trajectory().size());
+  EXPECT_LT(RunJson()["input"]["scans"]["read"], kScans);
+  EXPECT_TRUE(fs::exists(Result("map.ply")));
+}
+
+TEST_F(InterruptedRunTest, TerminationIsTheSame) {
+  process_->Signal(SIGTERM);
+  EXPECT_EQ(process_->Wait(), 130);
+  EXPECT_GE(Trajectory().size(), 10u);
+}
+
+TEST_F(InterruptedRunTest, AKilledRunLeavesAReadablePrefixThatSaysSo) {
+  process_->Signal(SIGKILL);
+  EXPECT_EQ(process_->Wait(), -SIGKILL);
+  EXPECT_GE(Trajectory().size(), 10u);
+  const std::string text = ReadFile(Result("trajectory.tum"));
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_EQ(RunJson()["exit"]["reason"], "running");
+  EXPECT_EQ(Run().exit_code, 5);  // Nor is it replaced without being told so.
+}
+
+}  // namespace
+}  // namespace trajlo::testing

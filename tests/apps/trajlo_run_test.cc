@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The command as a user calls it, on recordings that are as they should be.
+#include "tests/apps/trajlo_run_testing.h"
+
+namespace trajlo::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TEST_F(TrajloRunTest, HelpTeachesByExample) {
+  const Outcome outcome = Call({"--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("trajlo_run --input=recording --output=result"),
+                                 HasSubstr("--set=window.segments=3")));
+  // The flags of glog and gflags are nobody's business.
+  EXPECT_THAT(outcome.out, ::testing::Not(HasSubstr("minloglevel")));
+}
+
+TEST_F(TrajloRunTest, VersionNamesWhatItStandsOn) {
+  const Outcome outcome = Call({"--version"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("trajlo_run "), HasSubstr("Ceres 2")));
+}
+
+TEST_F(TrajloRunTest, ShowConfigPrintsTheEffectiveConfiguration) {
+  const Outcome outcome = Call({"--show_config", "--set=window.segments=7"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("\n  segments: 7\n"));
+}
+
+TEST_F(TrajloRunTest, WritesTheMotionOfTheRecording) {
+  const RoomRecording room;
+  room.Write(input());
+  const Outcome outcome = Run();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("12 of 12 scans"), HasSubstr("point times: "),
+                                 HasSubstr("x real time"), HasSubstr("ok (exit code 0)")));
+  EXPECT_EQ(outcome.err, "");  // No progress bar: this is no terminal.
+
+  const std::vector<StampedPose> poses = Trajectory();
+  ASSERT_GT(poses.size(), 25u);
+  for (const StampedPose& pose : poses) {
+    const double t = 1e-9 * static_cast<double>(pose.t_ns) - RoomRecording::kStart;
+    const Eigen::Vector3d truth(room.PositionX(t), 0.0, 0.0);
+    EXPECT_LT((pose.T_world_body.t - truth).norm(), 0.03) << "at " << t << " s";
+  }
+
+  const nlohmann::json json = RunJson();
+  EXPECT_EQ(json["exit"]["reason"], "ok");
+  EXPECT_EQ(json["input"]["scans"]["read"], 12);
+  EXPECT_EQ(json["input"]["points"]["received"], 12 * 360 * 16);
+  EXPECT_EQ(json["result"]["poses_written"], poses.size());
+  EXPECT_GT(json["resources"]["real_time_factor"], 0.0);
+  EXPECT_GT(json["resources"]["estimation_ms_per_data_second"]["median"], 0.0);
+  EXPECT_THAT(ReadFile(Result("map.ply")), HasSubstr("element vertex"));
+  const std::string windows = ReadFile(Result("windows.csv"));
+  EXPECT_EQ(std::count(windows.begin(), windows.end(), '\n'),
+            1 + json["windows"]["count"].get<int>());
+}
+
+TEST_F(TrajloRunTest, TheResultDoesNotDependOnThreads) {
+  RoomRecording().Write(input());
+  ASSERT_EQ(Run({"--threads=1"}).exit_code, 0);
+  const std::string one = ReadFile(Result("trajectory.tum"));
+  const std::string map_of_one = ReadFile(Result("map.ply"));
+  ASSERT_EQ(Run({"--threads=2", "--overwrite"}).exit_code, 0);
+  EXPECT_EQ(ReadFile(Result("trajectory.tum")), one);
+  EXPECT_EQ(ReadFile(Result("map.ply")), map_of_one);
+}
+
+TEST_F(TrajloRunTest, TheWrittenConfigRepeatsTheRun) {
+  RoomRecording().Write(input());
+  ASSERT_EQ(
+      Run({"--set=window.segments=3,map.voxel_size_m=0.7", "--solver=gauss_newton"}).exit_code, 0);
+  const std::string first = ReadFile(Result("trajectory.tum"));
+  const std::string config = ReadFile(Result("config.yaml"));
+  WriteFile(temp_ / "again.yaml", config);
+  ASSERT_EQ(Run({"--config=" + (temp_ / "again.yaml").string(), "--overwrite"}).exit_code, 0);
+  EXPECT_EQ(ReadFile(Result("trajectory.tum")), first);
+  EXPECT_EQ(ReadFile(Result("config.yaml")), config);
+  EXPECT_EQ(RunJson()["solver"], "gauss_newton");
+}
+
+TEST_F(TrajloRunTest, RateSamplesEvenly) {
+  RoomRecording().Write(input());
+  ASSERT_EQ(Run({"--rate=100"}).exit_code, 0);
+  const std::vector<StampedPose> poses = Trajectory();
+  ASSERT_GT(poses.size(), 110u);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    EXPECT_EQ(poses[i].t_ns - poses[i - 1].t_ns, 10'000'000);
+  }
+}
+
+TEST_F(TrajloRunTest, OnePosePerScan) {
+  RoomRecording().Write(input());
+  ASSERT_EQ(Run({"--at=scan-mid"}).exit_code, 0);
+  const std::vector<StampedPose> mid = Trajectory();
+  ASSERT_EQ(Run({"--at=scan-end", "--overwrite"}).exit_code, 0);
+  const std::vector<StampedPose> end = Trajectory();
+  ASSERT_EQ(mid.size(), 12u);
+  ASSERT_EQ(end.size(), 12u);
+  EXPECT_NEAR(1e-6 * static_cast<double>(end[3].t_ns - mid[3].t_ns), 50.0, 1.0);
+}
+
+TEST_F(TrajloRunTest, TwoLidarsAreMergedByTheirExtrinsics) {
+  RoomRecording front, rear;
+  rear.sensor_at = Eigen::Vector3d(-0.4, 0.1, 0.2);
+  front.Write(temp_ / "in/lidar0");
+  rear.Write(temp_ / "in/lidar1");
+  const Outcome outcome =
+      Run({"--set=sensor.T_body_lidar=[{}, {translation_m: [-0.4, 0.1, 0.2]}]"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(RunJson()["input"]["scans"]["read"], 24);
+  const std::vector<StampedPose> poses = Trajectory();
+  const double t = 1e-9 * static_cast<double>(poses.back().t_ns) - RoomRecording::kStart;
+  EXPECT_NEAR(poses.back().T_world_body.t.x(), front.PositionX(t), 0.03);
+}
+
+TEST_F(TrajloRunTest, QuietPrintsNothingWhenAllIsWell) {
+  RoomRecording().Write(input());
+  const Outcome outcome = Run({"--quiet"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+}  // namespace
+}  // namespace trajlo::testing

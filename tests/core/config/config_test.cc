@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "core/config/config.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "core/config/edit_distance.h"
+#include "tests/core/config/config_testing.h"
+
+namespace trajlo {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using trajlo::testing::ConfigErrorOf;
+using trajlo::testing::Loaded;
+using trajlo::testing::LoadingError;
+using trajlo::testing::Overridden;
+using trajlo::testing::OverrideError;
+
+TEST(Config, SetsWhatTheFileSaysAndKeepsTheRest) {
+  const RunConfig config = Loaded("window:\n  segments: 7\nmap: {kind: kd_tree}\n");
+  EXPECT_EQ(config.odometry.window.segments, 7);
+  EXPECT_EQ(config.odometry.map.finest.kind, MapKind::kKdTree);
+  EXPECT_EQ(config.odometry.map.finest.voxel_size_m, RunConfig().odometry.map.finest.voxel_size_m);
+}
+
+TEST(Config, LaterFileOverridesEarlierOne) {
+  RunConfig config = Loaded("window: {segments: 7}\nsolver: {max_rounds: 3}");
+  LoadConfigText("window: {segments: 2}", "second.yaml", &config);
+  EXPECT_EQ(config.odometry.window.segments, 2);
+  EXPECT_EQ(config.odometry.solver.max_rounds, 3);
+}
+
+TEST(Config, EmptyFileAndEmptySectionChangeNothing) {
+  EXPECT_EQ(DumpConfig(Loaded("")), DumpConfig(RunConfig()));
+  EXPECT_EQ(DumpConfig(Loaded("window:\n# segments: 3\nmap:\n")), DumpConfig(RunConfig()));
+}
+
+TEST(Config, UnknownKeyNamesFileLineColumnAndNearestKey) {
+  EXPECT_THAT(LoadingError("map:\n  kind: kd_tree\n  voxel_sise_m: 1.0\n"),
+              AllOf(StartsWith("my.yaml:3:3: "), HasSubstr("unknown key 'map.voxel_sise_m'"),
+                    HasSubstr("did you mean 'map.voxel_size_m'?")));
+}
+
+TEST(Config, KeyInTheWrongSectionIsRecognisedByItsLastPart) {
+  EXPECT_THAT(LoadingError("segments: 3"), HasSubstr("did you mean 'window.segments'?"));
+  EXPECT_THAT(LoadingError("map: {min_range_m: 3}"),
+              HasSubstr("did you mean 'sensor.min_range_m'?"));
+}
+
+TEST(Config, UnknownKeyWithoutANearOneListsItsSection) {
+  EXPECT_THAT(LoadingError("lost: {xyzzyplugh: 3}"),
+              AllOf(HasSubstr("lost.min_inlier_share"), HasSubstr("lost.max_duration_s")));
+  EXPECT_THAT(LoadingError("xyzzyplugh: 3"), HasSubstr("--show_config"));
+}
+
+TEST(Config, RepeatedKeyIsAnError) {
+  EXPECT_THAT(LoadingError("window: {segments: 3}\nwindow: {segments: 4}"),
+              AllOf(StartsWith("my.yaml:2:"), HasSubstr("set twice")));
+}
+
+TEST(Config, SectionWithAValueAndOptionWithASectionAreErrors) {
+  EXPECT_THAT(LoadingError("\nwindow: 3"),
+              AllOf(StartsWith("my.yaml:2:9"), HasSubstr("window.segments")));
+  EXPECT_THAT(LoadingError("window: {segments: {a: 1}}"), HasSubstr("takes a single value"));
+  EXPECT_THAT(LoadingError("window: {segments: }"), HasSubstr("has no value"));
+  EXPECT_THAT(LoadingError("- 1\n- 2"), HasSubstr("expected sections"));
+}
+
+TEST(Config, BrokenYamlNamesTheLine) {
+  EXPECT_THAT(LoadingError("map:\n  kind: [kd_tree\n"),
+              AllOf(StartsWith("my.yaml:3:"), HasSubstr("not valid YAML")));
+}
+
+TEST(Config, MissingFileAndFolderAreErrors) {
+  RunConfig config;
+  for (const char* path : {"/no/such/file.yaml", "/"}) {
+    EXPECT_THAT(ConfigErrorOf([&] { LoadConfigFile(path, &config); }), StartsWith(path));
+  }
+}
+
+TEST(Config, FileWithAnErrorChangesNothing) {
+  RunConfig config;
+  EXPECT_THROW(LoadConfigText("window: {segments: 9}\nmap: {kind: x}", "my.yaml", &config),
+               ConfigError);
+  EXPECT_EQ(DumpConfig(config), DumpConfig(RunConfig()));
+}
+
+TEST(Overrides, SetSeveralKeysWithCommasInsideBrackets) {
+  const RunConfig config = Overridden(
+      "window.segments=2, solver.kind=gauss_newton,"
+      "sensor.T_body_lidar=[{translation_m: [1, 2, 3]}],threads=1");
+  EXPECT_EQ(config.odometry.window.segments, 2);
+  EXPECT_EQ(config.odometry.solver.kind, SolverKind::kGaussNewton);
+  ASSERT_EQ(config.odometry.segmenter.T_body_lidar.size(), 1u);
+  EXPECT_EQ(config.odometry.segmenter.T_body_lidar[0].t, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(config.odometry.threads, 1);
+}
+
+TEST(Overrides, EmptyTextEmptyValueAndTextsWithCommas) {
+  EXPECT_EQ(DumpConfig(Overridden("")), DumpConfig(RunConfig()));
+  EXPECT_EQ(Overridden("input.time_field=").input.time.field, "");
+  EXPECT_EQ(Overridden("input.time_field='a,b'").input.time.field, "a,b");
+}
+
+TEST(Overrides, ErrorsNameTheFlagAndTheKeyButNoLine) {
+  EXPECT_THAT(
+      OverrideError("window.segmets=2"),
+      ::testing::Eq("--set: unknown key 'window.segmets'; did you mean 'window.segments'?"));
+  EXPECT_THAT(OverrideError("window.segments"), HasSubstr("expected key=value"));
+  EXPECT_THAT(OverrideError("window.segments=two"),
+              AllOf(StartsWith("--set: 'window.segments' must be a whole number from 1 to 100"),
+                    HasSubstr("'two'")));
+  EXPECT_THAT(OverrideError("window.segments=[2"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(OverrideError("window.segments=2,window.segments=3"), HasSubstr("set twice"));
+}
+
+TEST(Config, DumpLoadsBackToTheSameValues) {
+  RunConfig config = Overridden(
+      "window.segments=3,map.kind=kd_tree,weights.kernel=tukey,solver.ceres.trust_region=dogleg,"
+      "weights.registration_sigma_m=0.1234567890123456,solver.ceres.parameter_tolerance=1e-17,"
+      "input.time_field='a \"b\": #c',input.stamps_file=x/y.txt,input.point_time=none,"
+      "input.time_unit=us,input.stamp_at=end,marginalization.enabled=false");
+  const Eigen::Quaterniond q = Eigen::Quaterniond(0.3, -0.2, 0.7, 0.1).normalized();
+  config.odometry.segmenter.T_body_lidar = {{q, {0.1, 1.0 / 3.0, -1e-9}}, SE3()};
+  const RunConfig back = Loaded(DumpConfig(config));
+  EXPECT_EQ(DumpConfig(back), DumpConfig(config));
+  EXPECT_EQ(back.input.time.field, "a \"b\": #c");
+  ASSERT_EQ(back.odometry.segmenter.T_body_lidar.size(), 2u);
+  EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].q.coeffs(), q.coeffs());
+  EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].t.y(), 1.0 / 3.0);
+  EXPECT_EQ(back.odometry.weights.registration_sigma_m, 0.1234567890123456);
+}
+
+TEST(Config, ListedKeysCanBeSetToTheirDefaults) {
+  for (const KeyInfo& key : ListKeys()) {
+    EXPECT_EQ(OverrideError(key.key + "=" + key.default_value), "") << key.key;
+    EXPECT_FALSE(key.doc.empty()) << key.key;
+    EXPECT_FALSE(key.allowed.empty()) << key.key;
+  }
+}
+
+TEST(Config, DefaultsPassTheChecks) { EXPECT_NO_THROW(CheckConfig(RunConfig())); }
+
+TEST(Config, ContradictionsNameBothKeysAndTheirValues) {
+  const auto problem = [](const std::string& settings) {
+    return ConfigErrorOf([&] { CheckConfig(Overridden(settings)); });
+  };
+  EXPECT_THAT(problem("sensor.min_range_m=5,sensor.max_range_m=4"),
+              AllOf(HasSubstr("sensor.min_range_m (5.0)"), HasSubstr("sensor.max_range_m (4.0)")));
+  EXPECT_THAT(problem("segmenter.map_voxel_m=1,segmenter.registration_voxel_m=0.5"),
+              HasSubstr("segmenter.registration_voxel_m (0.5)"));
+  for (const char* settings :
+       {"segmenter.interval_s=0.5", "segmenter.max_gap_s=0.02", "map.min_point_spacing_m=0.9",
+        "map.radius_m=2,map.voxel_size_m=3", "association.plane.neighbors=3", "threshold.min_m=90",
+        "threshold.max_m=0.001", "weights.min_kernel_m=50"}) {
+    EXPECT_NE(problem(settings), "") << settings;
+  }
+}
+
+TEST(EditDistance, CountsEdits) {
+  EXPECT_EQ(EditDistance("", ""), 0);
+  EXPECT_EQ(EditDistance("abc", ""), 3);
+  EXPECT_EQ(EditDistance("kitten", "sitting"), 3);
+  EXPECT_EQ(EditDistance("segmetns", "segments"), 1);
+}
+
+}  // namespace
+}  // namespace trajlo

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "core/report/run_json.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/errors.h"
+#include "core/report/resource_usage.h"
+#include "core/report/summary_table.h"
+#include "core/report/versions.h"
+#include "tests/support/temp_folder.h"
+
+namespace trajlo {
+namespace {
+
+using ::testing::HasSubstr;
+using trajlo::testing::TempFolder;
+
+RunSummary ExampleSummary() {
+  RunSummary s;
+  s.exit_code = 4;
+  s.exit_reason = "lost";
+  s.command_line = {"trajlo_run", "--input=a \"b\""};
+  s.inputs = {"a"};
+  s.output = "out";
+  s.read.scans_listed = 12;
+  s.read.scans_read = 11;
+  s.read.scans_skipped = 1;
+  s.points.received = 1000;
+  s.points.not_finite = 10;
+  s.points.too_near = 20;
+  s.begin_ns = 1'700'000'000'000'000'001;
+  s.end_ns = 1'700'000'002'000'000'001;
+  s.lost_at_ns = 1'700'000'001'000'000'001;
+  s.wall_s = 0.5;
+  s.warnings = {"scan 3 is short"};
+  WindowStatistics window;
+  window.points = 100;
+  window.inliers = 80;
+  window.flags = kFlagGap | kFlagLost;
+  window.milliseconds_solve = 3.0;
+  s.windows.Add(window);
+  return s;
+}
+
+TEST(RunJson, HoldsTheSummary) {
+  const nlohmann::json json = nlohmann::json::parse(RunJson(ExampleSummary()));
+  EXPECT_EQ(json["exit"]["code"], 4);
+  EXPECT_EQ(json["exit"]["reason"], "lost");
+  EXPECT_EQ(json["command_line"][1], "--input=a \"b\"");
+  EXPECT_EQ(json["input"]["scans"]["skipped"], 1);
+  EXPECT_EQ(json["input"]["points"]["kept"], 970);
+  EXPECT_EQ(json["result"]["begin_s"], "1700000000.000000001");
+  EXPECT_EQ(json["result"]["duration_s"], 2.0);
+  EXPECT_EQ(json["result"]["lost_at_s"], "1700000001.000000001");
+  EXPECT_EQ(json["windows"]["inlier_share"], 0.8);
+  EXPECT_EQ(json["windows"]["flagged"]["gap"], 1);
+  EXPECT_EQ(json["windows"]["flagged"]["reverted"], 0);
+  EXPECT_EQ(json["resources"]["real_time_factor"], 4.0);
+  EXPECT_EQ(json["resources"]["stages_ms"]["solve"], 3.0);
+  EXPECT_EQ(json["versions"]["eigen"], "3.4.0");
+  EXPECT_EQ(json["warnings"].size(), 1u);
+}
+
+TEST(RunJson, ARunWithoutAResultIsStillValid) {
+  const nlohmann::json json = nlohmann::json::parse(RunJson({}));
+  EXPECT_TRUE(json["result"]["begin_s"].is_null());
+  EXPECT_EQ(json["exit"]["reason"], "running");
+}
+
+TEST(RunJson, SurvivesPathsThatAreNotUtf8) {
+  RunSummary s;
+  s.output = "out\xff";
+  EXPECT_NO_THROW(nlohmann::json::parse(RunJson(s)));
+}
+
+TEST(RunJson, ReplacesTheFileAndReportsAFullDisk) {
+  const TempFolder temp;
+  WriteRunJson(temp / "run.json", {});
+  WriteRunJson(temp / "run.json", ExampleSummary());
+  EXPECT_EQ(trajlo::testing::ReadFile(temp / "run.json"), RunJson(ExampleSummary()));
+  EXPECT_THROW(WriteRunJson("/dev/full", {}), OutputError);
+}
+
+TEST(SummaryTable, NamesWhatMatters) {
+  const std::string table = SummaryTable(ExampleSummary());
+  EXPECT_THAT(table, HasSubstr("11 of 12 scans"));
+  EXPECT_THAT(table, HasSubstr("10 not finite, 20 too near of 1000 points"));
+  EXPECT_THAT(table, HasSubstr("80 % inliers"));
+  EXPECT_THAT(table, HasSubstr("1 gap, 1 lost"));
+  EXPECT_THAT(table, HasSubstr("4.0 x real time"));
+  EXPECT_THAT(table, HasSubstr("at 1700000001.000000001 s"));
+  EXPECT_THAT(table, HasSubstr("lost (exit code 4), in out"));
+}
+
+TEST(SummaryTable, AnEmptyRunHasNoNan) {
+  EXPECT_EQ(SummaryTable({}).find("nan"), std::string::npos);
+}
+
+TEST(Versions, AreKnown) {
+  const Versions versions = GetVersions();
+  EXPECT_FALSE(versions.trajlo.empty());
+  EXPECT_FALSE(versions.git.empty());
+  EXPECT_THAT(versions.ceres, HasSubstr("2."));
+}
+
+TEST(ResourceUsage, IsPlausible) {
+  EXPECT_GT(PeakMemoryMegabytes(), 1.0);
+  EXPECT_GE(ProcessCpuSeconds(), 0.0);
+}
+
+}  // namespace
+}  // namespace trajlo
