@@ -220,6 +220,9 @@ void BindWeights(WeightOptions* weights, Binder* b) {
          "0.05).");
   b->Add("weights.smoothness_sigma_rotation_rad", weights->smoothness_sigma_rotation_rad,
          Range<double>{1e-6, 1e3}, "The same for the rotation.");
+  b->Add("weights.smoothness_interval_s", weights->smoothness_interval_s, Range<double>{1e-4, 10.0},
+         "The sigmas are meant for segments up to this long; for longer ones they grow with the "
+         "square of the interval, as the way does that an acceleration changes.");
   b->Add("weights.smoothness_scales_with_points", weights->smoothness_scales_with_points,
          "Divides both by the root of the summed weights of the segment's associated points, so "
          "that the balance between "

@@ -12,9 +12,11 @@ namespace {
 /// Computes the registration of all segments before Ceres asks the blocks for it.
 class PrepareRegistration final : public ceres::EvaluationCallback {
  public:
-  PrepareRegistration(const WindowProblem* problem, RegistrationEvaluator* evaluator,
+  PrepareRegistration(const WindowProblem* problem, int max_iterations,
+                      RegistrationEvaluator* evaluator,
                       std::vector<RegistrationNormalEquations>* equations)
       : problem_(problem),
+        max_iterations_(max_iterations),
         evaluator_(evaluator),
         equations_(equations),
         blocks_(problem->poses.size()) {
@@ -24,10 +26,13 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
     }
   }
 
-  /// Always with Jacobians: Ceres asks for the cost of a step first and, as nearly every step is
-  /// accepted, for the Jacobians at the same point next.
+  /// Ceres asks for the cost of a step first and, as nearly every step is accepted, for the
+  /// Jacobians at the same point next: they are computed together. After the last step that it may
+  /// take, Ceres asks for Jacobians that it no longer uses; there the cost is enough.
   void PrepareForEvaluation(bool, bool new_evaluation_point) override {
-    if (new_evaluation_point) evaluator_->Evaluate(*problem_, Poses(), true, equations_);
+    if (!new_evaluation_point) return;
+    is_linearized_ = points_++ < max_iterations_;
+    evaluator_->Evaluate(*problem_, Poses(), is_linearized_, equations_);
   }
 
   std::vector<SE3> Poses() const {
@@ -36,13 +41,18 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
     return poses;
   }
 
+  /// Whether the equations hold more than the cost.
+  bool is_linearized() const { return is_linearized_; }
   double* block(int k) { return blocks_[static_cast<std::size_t>(k)].data(); }
   const RegistrationNormalEquations* equations(int k) const { return &(*equations_)[k]; }
 
  private:
   const WindowProblem* problem_;
+  int max_iterations_;
   RegistrationEvaluator* evaluator_;
   std::vector<RegistrationNormalEquations>* equations_;
+  int points_ = 0;
+  bool is_linearized_ = false;
   std::vector<std::array<double, 7>> blocks_;
 };
 
@@ -87,7 +97,8 @@ CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
     : solver_options_(MakeSolverOptions(options)), evaluator_(threads) {}
 
 SolveSummary CeresSolver::Solve(WindowProblem* problem) {
-  PrepareRegistration prepare(problem, &evaluator_, &registration_);
+  PrepareRegistration prepare(problem, solver_options_.max_num_iterations, &evaluator_,
+                              &registration_);
   SE3Manifold manifold;
   ceres::Problem::Options problem_options;
   problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -124,7 +135,9 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
   MeasureStep(problem->poses, solution, &summary);
   problem->poses = solution;
   // After a rejected step the last evaluation was elsewhere.
-  if (ceres_summary.iterations.back().step_is_successful) summary.registration = &registration_;
+  if (prepare.is_linearized() && ceres_summary.iterations.back().step_is_successful) {
+    summary.registration = &registration_;
+  }
 
   summary.cost.prior = 0.5 * problem->prior.Residual(solution[0]).squaredNorm();
   for (int k = 0; k < problem->segments(); ++k) {

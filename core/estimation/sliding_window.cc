@@ -152,6 +152,7 @@ void SlidingWindow::BuildProblem() {
     problem_.points.push_back(&segment.association.registration_points());
     SmoothnessTerm term;
     term.tau_expected = expected_velocity_[k] * segment.Duration_s();
+    const double ratio = std::max(1.0, segment.Duration_s() / weights.smoothness_interval_s);
     term.sqrt_information.head<3>().setConstant(1.0 / weights.smoothness_sigma_translation_m);
     term.sqrt_information.tail<3>().setConstant(1.0 / weights.smoothness_sigma_rotation_rad);
     if (weights.smoothness_scales_with_points) {
@@ -159,6 +160,7 @@ void SlidingWindow::BuildProblem() {
       for (const RegistrationPoint& point : *problem_.points.back()) points += point.weight;
       term.sqrt_information *= std::sqrt(std::max(points, 1.0));
     }
+    term.sqrt_information /= ratio * ratio;
     problem_.smoothness.push_back(term);
   }
 }

@@ -14,8 +14,8 @@ struct SolveSummary {
   double step_m = 0.0;    ///< Largest translation of a control pose from start to solution.
   double step_rad = 0.0;  ///< Largest rotation.
   bool finite = true;     ///< False: the poses are those of the start.
-  /// The linearised registration at the solution, where the solver happens to have it (Ceres does);
-  /// valid until the next solve.
+  /// The linearised registration at the solution, where the solver happens to have it (Ceres when it
+  /// stops before its last iteration); valid until the next solve.
   const std::vector<RegistrationNormalEquations>* registration = nullptr;
 };
 

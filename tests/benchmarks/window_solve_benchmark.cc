@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A whole window with fixed associations as the odometry uses it: five iterations of a solver of the
 // product on one thread, then the registration linearised at the solution (for marginalisation and
-// for the window's condition). Ceres has that from testing its last step; Gauss-Newton, which tests
-// no step, evaluates it. The Ceres case prints its ratio to Gauss-Newton, measured in the same run.
+// for the window's condition). The Ceres case prints its ratio to Gauss-Newton, measured in the same
+// run.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
