@@ -278,7 +278,10 @@ void BindEstimation(OdometryOptions* odometry, Binder* b) {
          "first one; false assumes a stationary start, as the paper does.");
   b->Add("initialization.min_gain", initialization.min_gain, Range<double>{1.0, 100.0},
          "The estimated motion is believed only if it brings this many times as many points onto "
-         "planes as standing still does.");
+         "planes as standing still does ...");
+  b->Add("initialization.clear_motion_m", initialization.clear_motion_m, Range<double>{0.0, 1e3},
+         "... or simply more, where it is longer than this: at rest the estimate is off by "
+         "centimetres.");
   b->Add("lost.min_inlier_share", odometry->lost.min_inlier_share, Range<double>{0.0, 1.0},
          "The estimator is lost when fewer than this share of the points find a plane ...");
   b->Add("lost.max_duration_s", odometry->lost.max_duration_s, Range<double>{0.0, 1e6},

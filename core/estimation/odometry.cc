@@ -81,9 +81,10 @@ class Odometry::Impl {
     if (options_.initialization.estimate_motion && duration_s > 0.0) {
       const InitialMotion motion = EstimateInitialMotion(
           cloud, options_.map, options_.association, options_.weights, &threads_);
-      if (motion.agreement > options_.initialization.min_gain * motion.agreement_at_rest) {
-        tau = motion.tau;
-      }
+      const bool is_clear =
+          motion.tau.head<3>().norm() > options_.initialization.clear_motion_m;
+      const double gain = is_clear ? 1.0 : options_.initialization.min_gain;
+      if (motion.agreement > gain * motion.agreement_at_rest) tau = motion.tau;
     }
     AddToMap(cloud, SE3(), se3::Exp(tau));
     if (duration_s > 0.0) trajectory_.Append({cloud.begin_ns, SE3(), 0});
