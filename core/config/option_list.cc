@@ -285,7 +285,9 @@ void BindEstimation(OdometryOptions* odometry, Binder* b) {
   b->Add("lost.min_inlier_share", odometry->lost.min_inlier_share, Range<double>{0.0, 1.0},
          "The estimator is lost when fewer than this share of the points find a plane ...");
   b->Add("lost.max_duration_s", odometry->lost.max_duration_s, Range<double>{0.0, 1e6},
-         "... for longer than this.");
+         "... for longer than this ...");
+  b->Add("lost.max_unconverged_s", odometry->lost.max_unconverged_s, Range<double>{0.0, 1e6},
+         "... or when no window converges for longer than this.");
   b->Add("lost.max_correction_m", odometry->lost.max_correction_m, Range<double>{1e-3, 1e3},
          "A solve that moves the newest pose farther than this from its prediction ...");
   b->Add("lost.max_correction_rad", odometry->lost.max_correction_rad, Range<double>{1e-3, 10.0},

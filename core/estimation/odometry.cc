@@ -144,22 +144,35 @@ class Odometry::Impl {
   }
 
   void WatchForLoss(WindowStatistics* statistics) {
-    const bool few = statistics->InlierShare() < options_.lost.min_inlier_share;
-    if (!few) {
-      few_since_ns_.reset();
-      return;
-    }
-    if (!few_since_ns_) few_since_ns_ = statistics->end_ns;
-    if (Seconds(statistics->end_ns - *few_since_ns_) < options_.lost.max_duration_s) return;
+    const LostOptions& lost = options_.lost;
+    const bool few = statistics->InlierShare() < lost.min_inlier_share;
+    const bool unconverged = statistics->flags & kFlagNotConverged;
+    const bool too_long_few = few_.Lasts(few, statistics->end_ns, lost.max_duration_s);
+    const bool too_long_unconverged =
+        unconverged_.Lasts(unconverged, statistics->end_ns, lost.max_unconverged_s);
+    if (!too_long_few && !too_long_unconverged) return;
     statistics->flags |= kFlagLost;
-    if (!lost_at_ns_) lost_at_ns_ = few_since_ns_;
+    if (!lost_at_ns_) lost_at_ns_ = too_long_few ? few_.since_ns : unconverged_.since_ns;
   }
+
+  /// Since when a condition has held without a break.
+  struct Spell {
+    std::optional<std::int64_t> since_ns;
+    bool Lasts(bool holds, std::int64_t now_ns, double longer_than_s) {
+      if (!holds) {
+        since_ns.reset();
+        return false;
+      }
+      if (!since_ns) since_ns = now_ns;
+      return Seconds(now_ns - *since_ns) >= longer_than_s;
+    }
+  };
 
   bool started_ = false;
   std::int64_t windows_ = 0;
   double milliseconds_segment_ = 0.0;
   std::vector<Eigen::Vector3d> points_world_;
-  std::optional<std::int64_t> few_since_ns_;
+  Spell few_, unconverged_;
 };
 
 Odometry::Odometry(const OdometryOptions& options) : impl_(std::make_unique<Impl>(options)) {}

@@ -34,8 +34,11 @@ struct InitializationOptions {
 struct LostOptions {
   /// The estimator is lost when fewer than this share of the points find a plane ...
   double min_inlier_share = 0.05;
-  /// ... for longer than this.
+  /// ... for longer than this ...
   double max_duration_s = 1.0;
+  /// ... or when no window converges for longer than this: planes that never settle are not those
+  /// of the scene.
+  double max_unconverged_s = 3.0;
   /// A solve that moves the newest pose farther than this from its prediction is not believed.
   double max_correction_m = 3.0;
   double max_correction_rad = 1.0;

@@ -3,6 +3,8 @@
 // that says what to do, and results that are kept.
 #include <csignal>
 
+#include <random>
+
 #include "tests/apps/trajlo_run_testing.h"
 
 namespace trajlo::testing {
@@ -94,6 +96,26 @@ TEST_F(TrajloRunTest, AScanOfNansIsCountedAndBridged) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(RunJson()["input"]["points"]["not_finite"], points.size());
   EXPECT_LT(Trajectory().back().T_world_body.t.norm(), 1.0);
+}
+
+TEST_F(TrajloRunTest, AWorldThatDisappearsIsFourAndSaysWhen) {
+  RoomRecording room;
+  room.scans = 30;
+  room.Write(input());
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<float> somewhere(-80.0F, 80.0F);
+  for (int i = 8; i < room.scans; ++i) {
+    std::vector<Eigen::Vector4f> points = room.Scan(i);
+    for (Eigen::Vector4f& p : points) {
+      for (int axis = 0; axis < 3; ++axis) p[axis] = somewhere(engine);
+    }
+    RoomRecording::WriteScan(RoomRecording::File(input(), i), points);
+  }
+  const Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("lost"));
+  EXPECT_GT(Trajectory().size(), 60u) << "what was computed is kept";
+  EXPECT_EQ(RunJson()["exit"]["code"], 4);
 }
 
 TEST_F(TrajloRunTest, AnEarlierResultIsFiveUnlessOverwritten) {
