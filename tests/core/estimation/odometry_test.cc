@@ -115,8 +115,7 @@ TEST(Odometry, CeresAndGaussNewtonGiveTheSameTrajectory) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;
   OdometryOptions options = RoomOptions();
-  // Planes depend on the neighbours found, and those on the last bit of a pose; looking them up
-  // once per round makes the two runs comparable to the last digits.
+  // Not to the last digit: which neighbours a point finds turns on the last bit of a pose.
   options.solver.kind = SolverKind::kCeres;
   const RunResult ceres = RunOn(world, options, 15);
   options.solver.kind = SolverKind::kGaussNewton;
