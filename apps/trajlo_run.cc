@@ -8,9 +8,9 @@
 #include <string>
 
 #include "apps/run/interrupt.h"
-#include "apps/run/recording.h"
 #include "apps/run/run_job.h"
 #include "core/config/config.h"
+#include "core/io/recording/open_recording.h"
 #include "core/report/versions.h"
 
 DEFINE_string(input, "", "the recording: a folder of scans, or several separated by commas");
@@ -107,7 +107,7 @@ trajlo::RunRequest RequestFromFlags() {
   trajlo::RunRequest request;
   request.config = ConfigFromFlags();
   request.sampling = SamplingFromFlags();
-  request.inputs = trajlo::InputFolders(FLAGS_input);
+  request.inputs = trajlo::InputPaths(FLAGS_input);
   if (request.inputs.empty()) throw ConfigError("--input is missing");
   if (FLAGS_output.empty()) throw ConfigError("--output is missing");
   request.output = FLAGS_output;

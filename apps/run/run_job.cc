@@ -6,11 +6,11 @@
 #include <exception>
 #include <sstream>
 
-#include "apps/run/recording.h"
 #include "core/estimation/odometry.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
 #include "core/io/point_cloud_writer.h"
+#include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_writer.h"
 #include "core/report/processing_time.h"

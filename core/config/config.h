@@ -8,14 +8,14 @@
 
 #include "core/config/config_error.h"
 #include "core/estimation/odometry.h"
-#include "core/io/scan_folder.h"
+#include "core/io/recording/recording_options.h"
 
 namespace trajlo {
 
 /// All that a run can be told, with the defaults of the structs that it is made of. Each option has
 /// a dotted key such as `window.segments`, under which it stands in YAML as nested maps.
 struct RunConfig {
-  ScanFolderOptions input;
+  RecordingOptions input;
   OdometryOptions odometry;
 };
 

@@ -39,11 +39,21 @@ struct ChoiceField {
 struct ExtrinsicsField {
   std::vector<SE3>* value;
 };
+/// One value for all LiDARs, or a list with one for each.
+struct ListField {
+  using Element = std::variant<RealField, TextField, ChoiceField>;
+  bool may_be_empty;
+  std::function<std::size_t()> size;
+  std::function<void(std::size_t)> resize;
+  std::function<Element(std::size_t)> at;
+};
 
 struct Option {
   std::string key;
   std::string doc;
-  std::variant<FlagField, IntegerField, RealField, TextField, ChoiceField, ExtrinsicsField> field;
+  std::variant<FlagField, IntegerField, RealField, TextField, ChoiceField, ExtrinsicsField,
+               ListField>
+      field;
 };
 
 /// The one list of all options, bound to the fields of `config`, which must outlive them.
@@ -55,7 +65,7 @@ std::string SectionDoc(const std::string& section);
 
 /// Takes the value from YAML. Throws ValueError.
 void SetOption(const YAML::Node& node, const Option& option);
-/// The value as YAML in one line; extrinsics as a flow sequence.
+/// The value as YAML in one line; lists as a flow sequence.
 std::string ValueText(const Option& option);
 /// What the option may hold, in words.
 std::string AllowedText(const Option& option);

@@ -44,20 +44,65 @@ class Binder {
 
   template <typename Value>
   void Add(const char* key, Value& value, const Names<Value>& names, const char* doc) {
-    ChoiceField field;
-    for (const auto& [name, meaning] : names) field.names.emplace_back(name);
-    field.get = [&value, names] {
-      const auto found = std::find_if(names.begin(), names.end(),
-                                      [&](const auto& name) { return name.second == value; });
-      return static_cast<std::size_t>(found - names.begin());
-    };
-    field.set = [&value, names](std::size_t index) { value = names[index].second; };
-    Push(key, doc, std::move(field));
+    Push(key, doc,
+         Choice(
+             names, [&value]() -> Value { return value; },
+             [&value](Value chosen) { value = chosen; }));
+  }
+
+  void Add(const char* key, std::vector<std::string>& values, const char* doc) {
+    Push(key, doc, List(values, true, [&values](std::size_t i) { return TextAt(values, i); }));
+  }
+
+  void Add(const char* key, PerLidar<std::string>& value, const char* doc) {
+    auto& values = value.values;
+    Push(key, doc, List(values, false, [&values](std::size_t i) { return TextAt(values, i); }));
+  }
+
+  void Add(const char* key, PerLidar<double>& value, Range<double> range, const char* doc) {
+    auto& values = value.values;
+    Push(key, doc, List(values, false, [&values, range](std::size_t i) {
+           return RealField{&values[i], range.min, range.max};
+         }));
+  }
+
+  template <typename Value>
+  void Add(const char* key, PerLidar<Value>& value, const Names<Value>& names, const char* doc) {
+    auto& values = value.values;
+    Push(key, doc, List(values, false, [&values, names](std::size_t i) {
+           return Choice(
+               names, [&values, i]() -> Value { return values[i]; },
+               [&values, i](Value chosen) { values[i] = chosen; });
+         }));
   }
 
   std::vector<Option> options;
 
  private:
+  template <typename Value, typename At>
+  static ListField List(std::vector<Value>& values, bool may_be_empty, At at) {
+    return {may_be_empty, [&values] { return values.size(); },
+            [&values](std::size_t size) { values.resize(size); }, at};
+  }
+
+  static TextField TextAt(std::vector<std::string>& values, std::size_t i) {
+    return {[&values, i] { return values[i]; },
+            [&values, i](const std::string& text) { values[i] = text; }};
+  }
+
+  template <typename Value, typename Get, typename Set>
+  static ChoiceField Choice(const Names<Value>& names, Get get, Set set) {
+    ChoiceField field;
+    for (const auto& [name, meaning] : names) field.names.emplace_back(name);
+    field.get = [names, get] {
+      const auto found = std::find_if(names.begin(), names.end(),
+                                      [&](const auto& name) { return name.second == get(); });
+      return static_cast<std::size_t>(found - names.begin());
+    };
+    field.set = [names, set](std::size_t index) { set(names[index].second); };
+    return field;
+  }
+
   template <typename Field>
   void Push(const char* key, const char* doc, Field field) {
     options.push_back({key, doc, std::move(field)});
@@ -95,24 +140,31 @@ const Names<TrustRegionKind> kTrustRegions = {
     {"levenberg_marquardt", TrustRegionKind::kLevenbergMarquardt},
     {"dogleg", TrustRegionKind::kDogleg}};
 
-void BindInput(ScanFolderOptions* input, Binder* b) {
-  TimeOptions& time = input->time;
-  b->Add("input.point_time", time.use_point_times, kPointTimes,
+void BindInput(RecordingOptions* input, Binder* b) {
+  b->Add("input.topics", input->topics,
+         "Topics of a bag to read, one per LiDAR; empty takes the only one with point clouds.");
+  b->Add("input.point_time", input->use_point_times, kPointTimes,
          "none: ignore per-point times, as motion-corrected scans need it; every point then gets "
          "its scan's stamp.");
-  b->Add("input.time_field", time.field,
+  b->Add("input.time_field", input->time_field,
          "Name of the field with the points' times; empty takes the first with a known name.");
-  b->Add("input.time_unit", time.unit, kTimeUnits,
+  b->Add("input.time_unit", input->time_unit, kTimeUnits,
          "Unit of the points' times; auto decides by the evidence of the first scans.");
-  b->Add("input.time_origin", time.origin, kTimeOrigins,
+  b->Add("input.time_origin", input->time_origin, kTimeOrigins,
          "What a point time of zero means: start or end of the sweep, the scan's stamp, or the "
          "zero of an absolute clock.");
-  b->Add("input.stamp_at", time.stamp_at, kStampEnds,
+  b->Add("input.stamp_at", input->stamp_at, kStampEnds,
          "Which end of the sweep a scan's stamp marks.");
+  b->Add("input.clock_offset_s", input->clock_offset_s, Range<double>{-1e9, 1e9},
+         "Added to the stamps and times of a LiDAR whose clock is late by this much.");
   b->Add("input.stamps_file", input->stamps_file,
          "File with one stamp a line; empty searches for timestamps.txt or times.txt.");
   b->Add("input.scan_period_s", input->scan_period_s, Range<double>{1e-3, 100.0},
          "Time between scans when nothing else gives stamps.");
+  b->Add("input.start_s", input->start_s, Range<double>{0.0, 1e9},
+         "Scans before this much time since the first are skipped.");
+  b->Add("input.duration_s", input->duration_s, Range<double>{0.0, 1e9},
+         "The length of what is read; 0 reads to the end.");
 }
 
 void BindSensing(SegmenterOptions* segmenter, Binder* b) {

@@ -51,6 +51,44 @@ std::size_t ParseChoice(const YAML::Node& node, const ChoiceField& field) {
                           (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 
+/// The element of a list as an option of its own.
+Option At(const Option& option, const ListField& field, std::size_t i) {
+  return std::visit(
+      [&](auto element) {
+        return Option{option.key, option.doc, element};
+      },
+      field.at(i));
+}
+
+void SetList(const YAML::Node& node, const ListField& field, const Option& option) {
+  if (node.IsSequence() && (node.size() > 0 || field.may_be_empty)) {
+    field.resize(node.size());
+    for (std::size_t i = 0; i < node.size(); ++i) SetOption(node[i], At(option, field, i));
+    return;
+  }
+  const bool empties = node.IsNull() || (node.IsScalar() && node.Scalar().empty());
+  field.resize(field.may_be_empty && empties ? 0 : 1);
+  if (field.size() == 1) SetOption(node, At(option, field, 0));
+}
+
+std::string ListText(const ListField& field, const Option& option) {
+  if (field.size() == 1) return ValueText(At(option, field, 0));
+  std::string text;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    text += (i > 0 ? ", " : "") + ValueText(At(option, field, i));
+  }
+  return "[" + text + "]";
+}
+
+/// What one element of a list may be, whether or not there is one.
+std::string AllowedInList(const ListField& field, const Option& option) {
+  const std::size_t size = field.size();
+  if (size == 0) field.resize(1);
+  std::string text = AllowedText(At(option, field, 0)) + ", or a list with one per LiDAR";
+  field.resize(size);
+  return text;
+}
+
 std::string Quoted(const std::string& text) {
   YAML::Emitter emitter;
   emitter.SetStringFormat(YAML::DoubleQuoted);
@@ -64,6 +102,9 @@ void SetOption(const YAML::Node& node, const Option& option) {
   if (const auto* extrinsics = std::get_if<ExtrinsicsField>(&option.field)) {
     *extrinsics->value = ParseExtrinsics(node);
     return;
+  }
+  if (const auto* list = std::get_if<ListField>(&option.field)) {
+    return SetList(node, *list, option);
   }
   const auto* text = std::get_if<TextField>(&option.field);
   if (text != nullptr && node.IsNull()) return text->set("");
@@ -79,6 +120,7 @@ void SetOption(const YAML::Node& node, const Option& option) {
           [&](const TextField& field) { field.set(node.Scalar()); },
           [&](const ChoiceField& field) { field.set(ParseChoice(node, field)); },
           [](const ExtrinsicsField&) {},
+          [](const ListField&) {},
       },
       option.field);
 }
@@ -96,6 +138,7 @@ std::string ValueText(const Option& option) {
             for (const SE3& T : *field.value) text += (text.empty() ? "" : ", ") + ExtrinsicText(T);
             return "[" + text + "]";
           },
+          [&](const ListField& field) { return ListText(field, option); },
       },
       option.field);
 }
@@ -114,6 +157,7 @@ std::string AllowedText(const Option& option) {
           [](const TextField&) { return std::string("a text"); },
           [](const ChoiceField& field) { return Join(field.names); },
           [](const ExtrinsicsField&) { return std::string("a list, one transform per LiDAR"); },
+          [&](const ListField& field) { return AllowedInList(field, option); },
       },
       option.field);
 }

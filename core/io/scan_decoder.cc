@@ -148,7 +148,7 @@ std::optional<TimeSample> SampleTimes(const PointTable& table, const Column& col
   VisitColumn(table, column, 0, table.count, [&](std::size_t i, auto value) {
     const auto time = static_cast<double>(value);
     if (!(size[i] > 0.0F) || !std::isfinite(size[i]) || !std::isfinite(time)) return;
-    if (!sample) sample = TimeSample{time, time, {}};
+    if (!sample) sample = TimeSample{time, time, {}, {}};
     sample->first = std::min(sample->first, time);
     sample->last = std::max(sample->last, time);
   });
@@ -193,6 +193,12 @@ std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& tabl
   if (time != nullptr) return PlaceTimes(convention, *stamp_ns, scan);
   for (LidarPoint& point : scan->points) point.t_ns = scan->stamp_ns;
   return 0;
+}
+
+void ShiftTimes(std::int64_t offset_ns, LidarScan* scan) {
+  if (offset_ns == 0) return;
+  scan->stamp_ns += offset_ns;
+  for (LidarPoint& point : scan->points) point.t_ns += offset_ns;
 }
 
 }  // namespace trajlo

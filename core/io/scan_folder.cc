@@ -108,8 +108,9 @@ void ScanFolder::SetRegularStamps() {
 }
 
 void ScanFolder::Describe(const std::filesystem::path& path) {
-  description_ = path.string() + ": " + std::to_string(listing_.files.size()) + " scans (" +
-                 listing_.extension + ") in " + listing_.folder.string() + "\n";
+  description_ = path.string() + ": lidar " + std::to_string(options_.lidar_id) + " is " +
+                 std::to_string(listing_.files.size()) + " scans (" + listing_.extension + ") in " +
+                 listing_.folder.string() + "\n";
   const bool by_points = stamps_.t_ns.empty();
   description_ += "stamps: " + (by_points ? "the earliest point of each scan" : stamps_.source);
   if (!by_points) {
@@ -134,6 +135,7 @@ ScanFolder::Outcome ScanFolder::Decode(std::size_t index, LidarScan reused) cons
     const auto stamp_ns =
         stamps_.t_ns.empty() ? std::nullopt : std::optional<std::int64_t>(stamps_.t_ns[index]);
     outcome.points_without_time = DecodeScan(file, table, convention_, stamp_ns, &outcome.scan);
+    ShiftTimes(options_.clock_offset_ns, &outcome.scan);
     outcome.scan.lidar_id = options_.lidar_id;
     outcome.readable = true;
   } catch (const std::exception& error) {

@@ -21,6 +21,8 @@ struct ScanFolderOptions {
   TimeOptions time;
   /// Explicit stamps file; empty: search for one.
   std::filesystem::path stamps_file;
+  /// Added to all stamps and times.
+  std::int64_t clock_offset_ns = 0;
   /// Time between scans when nothing else gives stamps.
   double scan_period_s = 0.1;
   /// Decode the next scan in the background while the present one is worked on.

@@ -18,6 +18,8 @@ struct ReadReport {
   std::size_t scans_damaged = 0;
   /// Nothing could be read.
   std::size_t scans_skipped = 0;
+  /// A part of the file is missing or broken, with an unknown number of scans in it.
+  bool file_is_cut = false;
   std::size_t points_read = 0;
   /// Points among them that were disarmed (position NaN) because their time was impossible.
   std::size_t points_without_time = 0;
@@ -25,10 +27,10 @@ struct ReadReport {
   std::vector<std::string> warnings;
 
   /// True if the result rests on a part of the input only: exit code 3.
-  bool IsPartial() const { return scans_damaged + scans_skipped > 0; }
+  bool IsPartial() const { return file_is_cut || scans_damaged + scans_skipped > 0; }
 };
 
-/// A recording of one LiDAR, scan by scan.
+/// A recording of one or several LiDARs, scan by scan.
 class ScanSource {
  public:
   virtual ~ScanSource() = default;

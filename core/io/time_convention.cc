@@ -147,6 +147,25 @@ void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeCon
                      (stamp_is_last ? "last" : "first") + " point";
 }
 
+/// Which end of the sweep the stamps mark, by the time of recording: the last point was measured
+/// before, so a message recorded less than a sweep after its stamp has the stamp of its end.
+StampAt JudgeStamp(const TimeEvidence& evidence, TimeConvention* found) {
+  std::vector<double> delays_ns;
+  for (const TimeSample& sample : evidence.samples) {
+    if (!sample.stamp_ns || !sample.recorded_ns) continue;
+    delays_ns.push_back(static_cast<double>(*sample.recorded_ns - *sample.stamp_ns));
+  }
+  if (delays_ns.empty()) return StampAt::kStart;
+  const double delay_s = 1e-9 * Median(delays_ns);
+  const double sweep_s = 1e-9 * static_cast<double>(found->sweep_ns);
+  found->evidence += "; messages were recorded " + Number(delay_s) + " s after their stamp";
+  if (delay_s < -0.1 * sweep_s || delay_s > 10.0 * sweep_s) {
+    found->evidence += ", so the clocks differ and the stamp is taken for the sweep's start";
+    return StampAt::kStart;
+  }
+  return delay_s < 0.8 * sweep_s ? StampAt::kEnd : StampAt::kStart;
+}
+
 std::string OriginText(const TimeConvention& found) {
   const std::string stamp = found.stamp_at == StampAt::kEnd ? "end" : "start";
   switch (found.origin) {
@@ -208,7 +227,9 @@ TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOpti
     CompareClocks(evidence, summary, &found);
   }
   if (found.stamp_at == StampAt::kAuto) {
-    found.stamp_at = found.origin == TimeOrigin::kSweepEnd ? StampAt::kEnd : StampAt::kStart;
+    found.stamp_at = StampAt::kStart;
+    if (found.origin == TimeOrigin::kSweepEnd) found.stamp_at = StampAt::kEnd;
+    if (found.origin == TimeOrigin::kSweepStart) found.stamp_at = JudgeStamp(evidence, &found);
   }
   found.evidence += "; " + OriginText(found);
   return found;

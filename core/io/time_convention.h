@@ -35,6 +35,8 @@ struct TimeSample {
   double first = 0.0;
   double last = 0.0;
   std::optional<std::int64_t> stamp_ns;
+  /// When the message was recorded; a message is sent after its last point was measured.
+  std::optional<std::int64_t> recorded_ns;
 };
 
 /// What is known about the time field from the first scans of a recording.

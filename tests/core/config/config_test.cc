@@ -103,8 +103,8 @@ TEST(Overrides, SetSeveralKeysWithCommasInsideBrackets) {
 
 TEST(Overrides, EmptyTextEmptyValueAndTextsWithCommas) {
   EXPECT_EQ(DumpConfig(Overridden("")), DumpConfig(RunConfig()));
-  EXPECT_EQ(Overridden("input.time_field=").input.time.field, "");
-  EXPECT_EQ(Overridden("input.time_field='a,b'").input.time.field, "a,b");
+  EXPECT_EQ(Overridden("input.time_field=").input.time_field.Of(0), "");
+  EXPECT_EQ(Overridden("input.time_field='a,b'").input.time_field.Of(0), "a,b");
 }
 
 TEST(Overrides, ErrorsNameTheFlagAndTheKeyButNoLine) {
@@ -129,7 +129,7 @@ TEST(Config, DumpLoadsBackToTheSameValues) {
   config.odometry.segmenter.T_body_lidar = {{q, {0.1, 1.0 / 3.0, -1e-9}}, SE3()};
   const RunConfig back = Loaded(DumpConfig(config));
   EXPECT_EQ(DumpConfig(back), DumpConfig(config));
-  EXPECT_EQ(back.input.time.field, "a \"b\": #c");
+  EXPECT_EQ(back.input.time_field.Of(0), "a \"b\": #c");
   ASSERT_EQ(back.odometry.segmenter.T_body_lidar.size(), 2u);
   EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].q.coeffs(), q.coeffs());
   EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].t.y(), 1.0 / 3.0);

@@ -44,8 +44,8 @@ TEST(ConfigValues, Flags) {
 TEST(ConfigValues, ChoicesListTheirNames) {
   EXPECT_THAT(OverrideError("solver.kind=cerres"),
               AllOf(HasSubstr("ceres | gauss_newton"), HasSubstr("did you mean 'ceres'?")));
-  EXPECT_FALSE(Overridden("input.point_time=none").input.time.use_point_times);
-  EXPECT_EQ(Overridden("input.time_unit=ms").input.time.unit, TimeUnit::kMilliseconds);
+  EXPECT_FALSE(Overridden("input.point_time=none").input.use_point_times.Of(0));
+  EXPECT_EQ(Overridden("input.time_unit=ms").input.time_unit.Of(0), TimeUnit::kMilliseconds);
 }
 
 const std::vector<SE3>& Extrinsics(const RunConfig& config) {
@@ -89,6 +89,24 @@ TEST(ConfigExtrinsics, MistakesAreExplained) {
               HasSubstr("determinant"));
   EXPECT_THAT(problem("[{translation: [1, 2, 3]}]"), HasSubstr("unexpected 'translation'"));
   EXPECT_THAT(problem("3"), HasSubstr("expected a list"));
+}
+
+TEST(ConfigValues, APerLidarOptionTakesAValueForAllOrAListWithOneForEach) {
+  RunConfig config = Overridden("input.stamp_at=[end,start],input.topics=[/a,/b]");
+  EXPECT_EQ(config.input.stamp_at.Of(0), StampAt::kEnd);
+  EXPECT_EQ(config.input.stamp_at.Of(1), StampAt::kStart);
+  EXPECT_EQ(config.input.stamp_at.Of(7), StampAt::kStart);
+  EXPECT_EQ(config.input.topics, (std::vector<std::string>{"/a", "/b"}));
+  RunConfig back;
+  LoadConfigText(DumpConfig(config), "dump", &back);
+  EXPECT_EQ(back.input.topics, config.input.topics);
+  EXPECT_EQ(back.input.stamp_at.values, config.input.stamp_at.values);
+  ApplyOverrides("input.topics=/c,input.stamp_at=auto", &back);
+  EXPECT_EQ(back.input.topics, std::vector<std::string>{"/c"});
+  ApplyOverrides("input.topics=", &back);
+  EXPECT_TRUE(back.input.topics.empty());
+  EXPECT_THROW(ApplyOverrides("input.stamp_at=[]", &back), ConfigError);
+  EXPECT_THROW(ApplyOverrides("input.stamp_at=[end,middle]", &back), ConfigError);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/run/recording.h"
+#include "core/io/recording/open_recording.h"
 
 #include <gmock/gmock.h>
 
@@ -22,17 +22,17 @@ RoomRecording SmallRoom(int scans) {
   return room;
 }
 
-TEST(InputFolders, SeparatesByCommasOrTakesTheFoldersOfTheLidars) {
+TEST(InputPaths, SeparatesByCommasOrTakesTheFoldersOfTheLidars) {
   const TempFolder temp;
-  EXPECT_THAT(InputFolders("a,b,,c"), ElementsAre("a", "b", "c"));
-  EXPECT_THAT(InputFolders(""), ElementsAre());
-  EXPECT_THAT(InputFolders(temp.path()), ElementsAre(temp.path().string()));
+  EXPECT_THAT(InputPaths("a,b,,c"), ElementsAre("a", "b", "c"));
+  EXPECT_THAT(InputPaths(""), ElementsAre());
+  EXPECT_THAT(InputPaths(temp.path()), ElementsAre(temp.path().string()));
   std::filesystem::create_directories(temp / "a,b");
-  EXPECT_THAT(InputFolders(temp / "a,b"), ElementsAre((temp / "a,b").string()));
+  EXPECT_THAT(InputPaths(temp / "a,b"), ElementsAre((temp / "a,b").string()));
   for (const char* name : {"lidar0", "lidar1", "lidar3"}) {
     std::filesystem::create_directories(temp / name);
   }
-  EXPECT_THAT(InputFolders(temp.path()),
+  EXPECT_THAT(InputPaths(temp.path()),
               ElementsAre((temp / "lidar0").string(), (temp / "lidar1").string()));
 }
 
@@ -43,7 +43,7 @@ TEST(OpenRecording, MergesLidarsByTheStampsOfTheirScans) {
   trajlo::testing::WriteFile(temp / "b/timestamps.txt", "1000.15\n1000.25\n");
   const auto recording = OpenRecording({temp / "a", temp / "b"}, {});
   EXPECT_EQ(recording->size(), 6u);
-  EXPECT_THAT(recording->description(), HasSubstr("lidar 1: "));
+  EXPECT_THAT(recording->description(), HasSubstr("lidar 1 is 2 scans"));
   LidarScan scan;
   std::vector<std::pair<int, std::int64_t>> order;
   while (recording->Next(&scan)) {

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/recording/cloud_recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "core/io/errors.h"
+#include "core/io/scan_decoder.h"
+#include "core/io/scan_stamps.h"
+
+namespace trajlo {
+namespace {
+
+/// The first message is often partial: several of each topic are asked for their times.
+constexpr std::size_t kProbedMessages = 5;
+/// A LiDAR that has not spoken after so many messages of others is opened without evidence.
+constexpr std::size_t kMostProbedMessages = 500;
+
+std::string CloudTopics(const CloudMessageReader& reader) {
+  std::string text;
+  for (std::size_t i = 0; i < reader.topics().size(); ++i) {
+    const Topic& topic = reader.topics()[i];
+    if (!reader.IsCloud(i)) continue;
+    text += "\n    " + topic.name + " (" + topic.type + ", " + std::to_string(topic.messages) +
+            " messages)";
+  }
+  return text.empty() ? " none" : text;
+}
+
+/// The places of the topics to read, in the order of the LiDARs.
+std::vector<std::size_t> ChooseTopics(const std::filesystem::path& path,
+                                      const CloudMessageReader& reader,
+                                      const std::vector<std::string>& wanted) {
+  std::vector<std::size_t> chosen;
+  if (wanted.empty()) {
+    for (std::size_t i = 0; i < reader.topics().size(); ++i) {
+      if (reader.IsCloud(i)) chosen.push_back(i);
+    }
+    if (chosen.size() == 1) return chosen;
+    throw InputError(path, "the topics with point clouds are:" + CloudTopics(reader),
+                     chosen.empty() ? "There is nothing to run on."
+                                    : "Choose with input.topics: one of them, or a list [a, b] "
+                                      "for several LiDARs.");
+  }
+  for (const std::string& name : wanted) {
+    std::size_t i = 0;
+    while (i < reader.topics().size() && !(reader.topics()[i].name == name && reader.IsCloud(i))) {
+      ++i;
+    }
+    if (i == reader.topics().size()) {
+      throw InputError(
+          path, "no topic '" + name + "' with point clouds; there are:" + CloudTopics(reader),
+          "Set input.topics to one of these.");
+    }
+    chosen.push_back(i);
+  }
+  return chosen;
+}
+
+/// What the first messages of one topic tell.
+struct Probed {
+  TimeEvidence evidence;
+  std::vector<std::int64_t> stamps_ns, recorded_ns;
+  std::string fields;
+  std::size_t readable = 0;
+
+  /// Drivers without a clock leave the stamps at zero.
+  bool HasStamps() const {
+    return std::any_of(stamps_ns.begin(), stamps_ns.end(), [](auto t_ns) { return t_ns != 0; });
+  }
+};
+
+void Note(const std::filesystem::path& path, const CloudMessage& message, const TimeOptions& time,
+          Probed* probed) {
+  LidarScan scan;
+  try {
+    DecodeScan(path, message.table, {}, 0, &scan);  // Throws if it has no positions.
+  } catch (const InputError&) {
+    return;
+  }
+  ++probed->readable;
+  if (probed->fields.empty()) probed->fields = message.table.FieldNames();
+  if (message.stamp_ns) probed->stamps_ns.push_back(*message.stamp_ns);
+  probed->recorded_ns.push_back(message.recorded_ns);
+  if (!time.use_point_times || message.table.count == 0) return;
+  const Column* column = FindTimeColumn(message.table, time.field);
+  if (column == nullptr && !time.field.empty()) {
+    throw InputError(path,
+                     "time_field '" + time.field +
+                         "' is sought, but the messages have: " + message.table.FieldNames(),
+                     "Set time_field to one of these, or leave it empty.");
+  }
+  TimeEvidence& evidence = probed->evidence;
+  if (column == nullptr || (!evidence.field.empty() && column->name != evidence.field)) return;
+  evidence.path = path;
+  evidence.field = column->name;
+  evidence.type = column->type;
+  if (std::optional<TimeSample> sample = SampleTimes(message.table, *column)) {
+    sample->stamp_ns = message.stamp_ns;
+    sample->recorded_ns = message.recorded_ns;
+    evidence.samples.push_back(*sample);
+  }
+}
+
+TimeConvention Decide(Probed probed, const TimeOptions& time) {
+  TimeConvention convention;
+  const bool has_stamps = probed.HasStamps();
+  if (!has_stamps) {
+    probed.stamps_ns = probed.recorded_ns;
+    for (TimeSample& sample : probed.evidence.samples) sample.stamp_ns = sample.recorded_ns;
+  }
+  if (!time.use_point_times) {
+    convention.evidence = "no point times: switched off by point_time none";
+  } else if (probed.evidence.field.empty()) {
+    convention.evidence =
+        "no point times: none of the fields (" + probed.fields + ") has a known name";
+  } else {
+    probed.evidence.period_s = TypicalPeriod(probed.stamps_ns);
+    convention = DeduceTimeConvention(probed.evidence, time);
+  }
+  if (!has_stamps) {
+    convention.evidence += "; the stamps are not filled, the time of recording stands for them";
+  }
+  return convention;
+}
+
+}  // namespace
+
+CloudRecording::CloudRecording(const std::filesystem::path& path, const Open& open,
+                               const RecordingOptions& options, std::size_t first_lidar_id)
+    : path_(path), reader_(open()) {
+  SelectStreams(options, first_lidar_id);
+  Probe(open().get(), options);
+  Describe();
+  StartNext({});
+}
+
+void CloudRecording::SelectStreams(const RecordingOptions& options, std::size_t first_lidar_id) {
+  const std::vector<std::size_t> topics = ChooseTopics(path_, *reader_, options.topics);
+  reader_->Select(topics);
+  for (const std::size_t topic : topics) {
+    const std::size_t id = first_lidar_id + streams_.size();
+    streams_.push_back({topic,
+                        {},
+                        std::llround(1e9 * options.clock_offset_s.Of(id)),
+                        static_cast<int>(id),
+                        false});
+    report_.scans_listed += reader_->topics()[topic].messages;
+  }
+}
+
+/// Decides the time convention of each LiDAR from its first messages.
+void CloudRecording::Probe(CloudMessageReader* reader, const RecordingOptions& options) {
+  std::vector<std::size_t> topics;
+  for (const Stream& stream : streams_) topics.push_back(stream.topic);
+  reader->Select(topics);
+  std::vector<Probed> probed(streams_.size());
+  std::size_t missing = streams_.size();
+  CloudMessage message;
+  for (std::size_t n = 0; n < kMostProbedMessages && missing > 0 && reader->Next(&message); ++n) {
+    const auto i = static_cast<std::size_t>(std::find(topics.begin(), topics.end(), message.topic) -
+                                            topics.begin());
+    if (probed[i].readable >= kProbedMessages) continue;
+    Note(path_, message, options.TimeOf(static_cast<std::size_t>(streams_[i].lidar_id)),
+         &probed[i]);
+    missing -= probed[i].readable >= kProbedMessages ? 1 : 0;
+  }
+  const bool none = std::all_of(probed.begin(), probed.end(),
+                                [](const Probed& one) { return one.readable == 0; });
+  if (none) {
+    const auto& warnings = reader->report().warnings;
+    throw InputError(path_, "no message with points can be read",
+                     warnings.empty() ? "" : warnings.front());
+  }
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    const auto lidar = static_cast<std::size_t>(streams_[i].lidar_id);
+    streams_[i].stamp_is_recorded = !probed[i].HasStamps();
+    streams_[i].convention = Decide(std::move(probed[i]), options.TimeOf(lidar));
+  }
+}
+
+void CloudRecording::Describe() {
+  for (const Stream& stream : streams_) {
+    const Topic& topic = reader_->topics()[stream.topic];
+    description_ += (description_.empty() ? "" : "\n") + path_.string() + ": lidar " +
+                    std::to_string(stream.lidar_id) + " is " + topic.name + " (" + topic.type +
+                    "), " + std::to_string(topic.messages) +
+                    " messages\npoint times: " + stream.convention.evidence;
+  }
+}
+
+CloudRecording::Outcome CloudRecording::Decode(LidarScan reused) {
+  Outcome outcome;
+  outcome.scan = std::move(reused);
+  if (!reader_->Next(&message_)) return outcome;
+  outcome.found = true;
+  const auto stream = std::find_if(streams_.begin(), streams_.end(),
+                                   [&](const Stream& one) { return one.topic == message_.topic; });
+  const std::string where = path_.string() + ": " + reader_->topics()[message_.topic].name;
+  try {
+    outcome.damage = message_.table.damage.empty() ? "" : where + ": " + message_.table.damage;
+    const TimeConvention& convention = stream->convention;
+    if (convention.HasPointTimes() && FindTimeColumn(message_.table, convention.field) == nullptr) {
+      outcome.damage = where + ": a message has no field '" + convention.field +
+                       "', all its points get the stamp";
+    }
+    const auto stamp_ns = stream->stamp_is_recorded ? message_.recorded_ns : message_.stamp_ns;
+    outcome.points_without_time =
+        DecodeScan(path_, message_.table, convention, stamp_ns, &outcome.scan);
+    ShiftTimes(stream->clock_offset_ns, &outcome.scan);
+    outcome.scan.lidar_id = stream->lidar_id;
+    outcome.readable = true;
+  } catch (const std::exception& error) {
+    outcome.damage = error.what();
+  }
+  return outcome;
+}
+
+void CloudRecording::StartNext(LidarScan reused) {
+  ahead_ = std::async(std::launch::async, &CloudRecording::Decode, this, std::move(reused));
+}
+
+bool CloudRecording::Next(LidarScan* scan) {
+  while (ahead_.valid()) {
+    Outcome outcome = ahead_.get();
+    // Nothing runs in the background here, so the reader's report is still.
+    TakeOver(reader_->report());
+    if (!outcome.found) return false;
+    if (!outcome.damage.empty()) report_.warnings.push_back(outcome.damage);
+    if (!outcome.readable) {
+      ++report_.scans_skipped;
+      StartNext(std::move(outcome.scan));
+      continue;
+    }
+    std::swap(*scan, outcome.scan);
+    StartNext(std::move(outcome.scan));
+    ++report_.scans_read;
+    report_.scans_damaged += outcome.damage.empty() ? 0 : 1;
+    report_.points_read += scan->points.size();
+    report_.points_without_time += outcome.points_without_time;
+    return true;
+  }
+  return false;
+}
+
+void CloudRecording::TakeOver(const MessageReport& message_report) {
+  report_.file_is_cut = message_report.damaged;
+  for (; warnings_taken_ < message_report.warnings.size(); ++warnings_taken_) {
+    report_.warnings.push_back(message_report.warnings[warnings_taken_]);
+  }
+}
+
+}  // namespace trajlo

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "core/io/messages/cloud_message.h"
+
+namespace trajlo {
+
+/// True for a file whose first bytes are those of a bag or of a capture of packets, and for a
+/// folder that holds such files and no scans of its own.
+bool HoldsClouds(const std::filesystem::path& path);
+
+/// Opens a bag (ROS 1 .bag, ROS 2 .db3 or .mcap), a capture of packets (.pcap, .pcapng), or a
+/// folder of bags, which are read one after the other in the natural order of their names. The kind
+/// is told by the first bytes, not by the name. Throws InputError.
+std::unique_ptr<CloudMessageReader> OpenClouds(const std::filesystem::path& path);
+
+}  // namespace trajlo

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/recording/open_recording.h"
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include "core/io/recording/cloud_recording.h"
+#include "core/io/recording/excerpt.h"
+#include "core/io/recording/merged_recording.h"
+#include "core/io/recording/open_clouds.h"
+#include "core/io/scan_folder.h"
+
+namespace trajlo {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<ScanSource> OpenFolder(const std::string& input, const RecordingOptions& options,
+                                       std::size_t lidar_id) {
+  ScanFolderOptions own;
+  own.lidar_id = static_cast<int>(lidar_id);
+  own.time = options.TimeOf(lidar_id);
+  own.stamps_file = options.stamps_file;
+  own.clock_offset_ns = std::llround(1e9 * options.clock_offset_s.Of(lidar_id));
+  own.scan_period_s = options.scan_period_s;
+  return std::make_unique<ScanFolder>(input, own);
+}
+
+}  // namespace
+
+std::vector<std::string> InputPaths(const std::string& input) {
+  std::error_code error;
+  std::vector<std::string> paths;
+  if (fs::exists(input, error)) {  // A name may hold a comma.
+    for (int id = 0;; ++id) {
+      const fs::path folder = fs::path(input) / ("lidar" + std::to_string(id));
+      if (!fs::is_directory(folder, error)) break;
+      paths.push_back(folder.string());
+    }
+    return paths.empty() ? std::vector<std::string>{input} : paths;
+  }
+  std::istringstream parts(input);
+  for (std::string part; std::getline(parts, part, ',');) {
+    if (!part.empty()) paths.push_back(part);
+  }
+  return paths;
+}
+
+std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs,
+                                          const RecordingOptions& options) {
+  std::vector<std::unique_ptr<ScanSource>> sources;
+  std::size_t lidar_id = 0;
+  for (const std::string& input : inputs) {
+    if (!HoldsClouds(input)) {
+      sources.push_back(OpenFolder(input, options, lidar_id++));
+      continue;
+    }
+    auto recording = std::make_unique<CloudRecording>(
+        input, [&] { return OpenClouds(input); }, options, lidar_id);
+    lidar_id += recording->lidars();
+    sources.push_back(std::move(recording));
+  }
+  std::unique_ptr<ScanSource> whole;
+  if (sources.size() == 1) {
+    whole = std::move(sources.front());
+  } else {
+    whole = std::make_unique<MergedRecording>(std::move(sources));
+  }
+  if (options.start_s == 0.0 && options.duration_s == 0.0) return whole;
+  return std::make_unique<Excerpt>(std::move(whole), std::llround(1e9 * options.start_s),
+                                   std::llround(1e9 * options.duration_s));
+}
+
+}  // namespace trajlo

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/io/recording/recording_options.h"
+#include "core/io/scan_source.h"
+
+namespace trajlo {
+
+/// The files and folders that `--input` names: separated by commas, or the subfolders lidar0,
+/// lidar1, ... of the one folder that it names.
+std::vector<std::string> InputPaths(const std::string& input);
+
+/// Opens a recording of one or several LiDARs. Each input is
+///   - a folder of scans: one LiDAR,
+///   - a bag (.bag, .db3, .mcap), a capture of packets (.pcap), or a folder of bags that follow
+///     each other: as many LiDARs as `options.topics` names.
+/// `lidar_id` counts through the inputs. Throws InputError.
+std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs,
+                                          const RecordingOptions& options);
+
+}  // namespace trajlo

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/recording/cloud_recording.h"
+
+#include <gmock/gmock.h>
+
+#include "core/io/errors.h"
+#include "core/io/recording/chained_clouds.h"
+#include "core/io/recording/excerpt.h"
+#include "tests/core/io/recording/fake_clouds.h"
+
+namespace trajlo {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using trajlo::testing::FakeClouds;
+using trajlo::testing::FakeMessage;
+using trajlo::testing::kMs;
+using trajlo::testing::RegularMessages;
+
+constexpr std::int64_t kStart = 1'000'000 * kMs;
+
+std::unique_ptr<CloudRecording> Open(const FakeClouds& fake, const RecordingOptions& options = {},
+                                     std::size_t first_lidar_id = 0) {
+  return std::make_unique<CloudRecording>(
+      "fake.bag", [fake] { return std::make_unique<FakeClouds>(fake); }, options, first_lidar_id);
+}
+
+std::string ErrorOf(const FakeClouds& fake, const RecordingOptions& options = {}) {
+  try {
+    Open(fake, options);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::vector<LidarScan> ReadAll(ScanSource* source) {
+  std::vector<LidarScan> scans;
+  for (LidarScan scan; source->Next(&scan);) scans.push_back(scan);
+  return scans;
+}
+
+TEST(CloudRecording, TakesTheOnlyTopicWithCloudsAndIgnoresOthers) {
+  auto messages = RegularMessages(6, 100 * kMs);
+  messages.push_back({1, kStart, kStart});
+  const auto recording = Open(FakeClouds({"/cloud", "/imu"}, messages));
+  EXPECT_EQ(recording->size(), 6u);
+  EXPECT_THAT(recording->description(), HasSubstr("lidar 0 is /cloud"));
+  EXPECT_EQ(ReadAll(recording.get()).size(), 6u);
+  EXPECT_EQ(recording->report().points_read, 60u);
+  EXPECT_FALSE(recording->report().IsPartial());
+}
+
+TEST(CloudRecording, SeveralCloudsWithoutAChoiceAreAnErrorThatNamesThem) {
+  auto messages = RegularMessages(6, 100 * kMs);
+  messages.push_back({1, kStart, kStart});
+  const FakeClouds fake({"/cloud_a", "/cloud_b"}, messages);
+  EXPECT_THAT(ErrorOf(fake), HasSubstr("/cloud_b (sensor_msgs/PointCloud2, 1 messages)"));
+  RecordingOptions options;
+  options.topics = {"/cloud_c"};
+  EXPECT_THAT(ErrorOf(fake, options), HasSubstr("no topic '/cloud_c'"));
+}
+
+TEST(CloudRecording, StampsOfTheSweepsEndAreSeenByTheTimeOfRecording) {
+  const auto at_end = Open(FakeClouds({"/cloud"}, RegularMessages(6, 2 * kMs)));
+  EXPECT_EQ(at_end->time_convention(0).stamp_at, StampAt::kEnd);
+  EXPECT_EQ(ReadAll(at_end.get())[0].points[9].t_ns, kStart - 10 * kMs);
+  const auto at_start = Open(FakeClouds({"/cloud"}, RegularMessages(6, 102 * kMs)));
+  EXPECT_EQ(at_start->time_convention(0).stamp_at, StampAt::kStart);
+  EXPECT_EQ(ReadAll(at_start.get())[0].points[9].t_ns, kStart + 90 * kMs);
+  const auto other_clock = Open(FakeClouds({"/cloud"}, RegularMessages(6, 1'000'000 * kMs)));
+  EXPECT_EQ(other_clock->time_convention(0).stamp_at, StampAt::kStart);
+  EXPECT_THAT(other_clock->description(), HasSubstr("the clocks differ"));
+}
+
+TEST(CloudRecording, WhatTheUserSaysAboutStampsWinsOverTheEvidence) {
+  RecordingOptions options;
+  options.stamp_at.values = {StampAt::kStart};
+  const auto recording = Open(FakeClouds({"/cloud"}, RegularMessages(6, 2 * kMs)), options);
+  EXPECT_EQ(ReadAll(recording.get())[0].points[0].t_ns, kStart);
+}
+
+TEST(CloudRecording, EachLidarHasItsOwnConventionAndClock) {
+  std::vector<FakeMessage> messages;
+  for (int i = 0; i < 8; ++i) {
+    const std::int64_t stamp_ns = kStart + i * 100 * kMs;
+    messages.push_back({0, stamp_ns, stamp_ns + kMs});
+    messages.push_back({1, stamp_ns + 30 * kMs, stamp_ns + 131 * kMs});
+  }
+  RecordingOptions options;
+  options.topics = {"/cloud_b", "/cloud_a"};
+  options.clock_offset_s.values = {9.0, 0.0, 0.005};
+  const auto recording = Open(FakeClouds({"/cloud_a", "/cloud_b"}, messages), options, 1);
+  const std::vector<LidarScan> scans = ReadAll(recording.get());
+  ASSERT_EQ(scans.size(), 16u);
+  EXPECT_EQ(scans[0].lidar_id, 2);  // /cloud_a, its stamp marks the end, its clock is late.
+  EXPECT_EQ(scans[0].stamp_ns, kStart + 5 * kMs);
+  EXPECT_EQ(scans[0].points[0].t_ns, kStart + 5 * kMs - 100 * kMs);
+  EXPECT_EQ(scans[1].lidar_id, 1);
+  EXPECT_EQ(scans[1].points[0].t_ns, kStart + 30 * kMs);
+}
+
+TEST(CloudRecording, TheTimeOfRecordingStandsForStampsThatAreNotFilled) {
+  auto messages = RegularMessages(6, 0);
+  for (FakeMessage& message : messages) message.stamp_ns = 0;
+  const auto recording = Open(FakeClouds({"/cloud"}, messages));
+  EXPECT_THAT(recording->description(), HasSubstr("the stamps are not filled"));
+  EXPECT_EQ(ReadAll(recording.get())[5].stamp_ns, kStart + 500 * kMs);
+}
+
+TEST(CloudRecording, ABrokenMessageIsCountedAndACutFileIsReported) {
+  auto messages = RegularMessages(6, 100 * kMs);
+  messages[2].x = "distance";
+  MessageReport at_end;
+  at_end.damaged = true;
+  at_end.warnings = {"fake.bag: cut at byte 1234"};
+  const auto recording = Open(FakeClouds({"/cloud"}, messages, at_end));
+  EXPECT_EQ(ReadAll(recording.get()).size(), 5u);
+  EXPECT_EQ(recording->report().scans_skipped, 1u);
+  EXPECT_TRUE(recording->report().file_is_cut);
+  EXPECT_TRUE(recording->report().IsPartial());
+  EXPECT_THAT(recording->report().warnings.back(), HasSubstr("byte 1234"));
+}
+
+TEST(CloudRecording, WithoutAReadableMessageThereIsAnError) {
+  auto messages = RegularMessages(2, 100 * kMs);
+  for (FakeMessage& message : messages) message.x = "distance";
+  EXPECT_THAT(ErrorOf(FakeClouds({"/cloud"}, messages)), HasSubstr("no message with points"));
+}
+
+TEST(ChainedClouds, ReadsPartsOneAfterTheOtherAndJoinsTopicsByName) {
+  std::vector<std::unique_ptr<CloudMessageReader>> parts;
+  MessageReport damaged;
+  damaged.damaged = true;
+  damaged.bytes_lost = 7;
+  parts.push_back(std::make_unique<FakeClouds>(std::vector<std::string>{"/cloud", "/imu"},
+                                               RegularMessages(2, 0), damaged));
+  auto later = RegularMessages(3, 0);
+  for (FakeMessage& message : later) message.topic = 1;
+  parts.push_back(
+      std::make_unique<FakeClouds>(std::vector<std::string>{"/cloud_new", "/cloud"}, later));
+  ChainedClouds chain(std::move(parts));
+  ASSERT_EQ(chain.topics().size(), 3u);
+  EXPECT_EQ(chain.topics()[0].messages, 5u);
+  EXPECT_TRUE(chain.IsCloud(2));
+  chain.Select({0});
+  CloudMessage message;
+  int count = 0;
+  for (; chain.Next(&message); ++count) EXPECT_EQ(message.topic, 0u);
+  EXPECT_EQ(count, 5);
+  EXPECT_TRUE(chain.report().damaged);
+  EXPECT_EQ(chain.report().bytes_lost, 7u);
+}
+
+TEST(Excerpt, KeepsTheScansWithinItsTime) {
+  Excerpt excerpt(Open(FakeClouds({"/cloud"}, RegularMessages(30, 100 * kMs))), 500 * kMs,
+                  300 * kMs);
+  std::vector<std::int64_t> stamps_ms;
+  for (const LidarScan& scan : ReadAll(&excerpt))
+    stamps_ms.push_back((scan.stamp_ns - kStart) / kMs);
+  EXPECT_THAT(stamps_ms, ElementsAre(500, 600, 700));
+}
+
+}  // namespace
+}  // namespace trajlo
