@@ -298,13 +298,13 @@ void BindSolver(SolverOptions* solver, Binder* b) {
   b->Add("solver.ceres.trust_region", ceres.trust_region, kTrustRegions,
          "How Ceres bounds its steps.");
   b->Add("solver.ceres.initial_trust_region_radius", ceres.initial_trust_region_radius,
-         Range<double>{1e-10, 1e16}, "A large one makes the first step a Gauss-Newton step.");
+         Range<double>{1e-10, 1e16}, "The largest makes the first step a Gauss-Newton step to the last bits.");
   b->Add("solver.ceres.function_tolerance", ceres.function_tolerance, Range<double>{0.0, 1.0},
-         "Ceres stops when the cost falls by a smaller share.");
+         "Ceres drops a step that lowers the cost by a smaller share, and stops.");
   b->Add("solver.ceres.gradient_tolerance", ceres.gradient_tolerance, Range<double>{0.0, 1.0},
          "Ceres stops when the largest entry of the gradient is smaller.");
   b->Add("solver.ceres.parameter_tolerance", ceres.parameter_tolerance, Range<double>{0.0, 1.0},
-         "Ceres stops when a step is smaller than this share of the state.");
+         "Ceres drops a step that is smaller than this share of the state, and stops.");
 }
 
 void BindMarginalization(MarginalizationOptions* marginalization, Binder* b) {

@@ -2,6 +2,7 @@
 #include "core/estimation/ceres_solver.h"
 
 #include <ceres/evaluation_callback.h>
+#include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
 
 #include "manifolds/se3_manifold.h"
@@ -56,6 +57,32 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
   std::vector<std::array<double, 7>> blocks_;
 };
 
+/// Ends the iterations by the rule of the Gauss-Newton solver: after a step that moved no pose by
+/// more than the tolerances. Ceres's own tolerances end before such a step is taken.
+class StopAfterSmallStep final : public ceres::IterationCallback {
+ public:
+  StopAfterSmallStep(const SolverOptions& options, const PrepareRegistration* state)
+      : options_(options), state_(state), before_(state->Poses()) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
+    if (iteration.iteration == 0 || !iteration.step_is_successful) {
+      return ceres::SOLVER_CONTINUE;
+    }
+    std::vector<SE3> now = state_->Poses();
+    SolveSummary step;
+    MeasureStep(before_, now, &step);
+    before_ = std::move(now);
+    const bool is_small =
+        step.step_m < options_.step_tolerance_m && step.step_rad < options_.step_tolerance_rad;
+    return is_small ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const SolverOptions& options_;
+  const PrepareRegistration* state_;
+  std::vector<SE3> before_;
+};
+
 ceres::Solver::Options MakeSolverOptions(const SolverOptions& options) {
   ceres::Solver::Options result;
   const CeresOptions& c = options.ceres;
@@ -74,9 +101,8 @@ ceres::Solver::Options MakeSolverOptions(const SolverOptions& options) {
       result.linear_solver_type = ceres::CGNR;
       break;
   }
-  result.trust_region_strategy_type = c.trust_region == TrustRegionKind::kDogleg
-                                          ? ceres::DOGLEG
-                                          : ceres::LEVENBERG_MARQUARDT;
+  result.trust_region_strategy_type =
+      c.trust_region == TrustRegionKind::kDogleg ? ceres::DOGLEG : ceres::LEVENBERG_MARQUARDT;
   result.initial_trust_region_radius = c.initial_trust_region_radius;
   result.max_trust_region_radius = std::max(1e16, c.initial_trust_region_radius);
   result.function_tolerance = c.function_tolerance;
@@ -94,7 +120,7 @@ ceres::Solver::Options MakeSolverOptions(const SolverOptions& options) {
 }  // namespace
 
 CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
-    : solver_options_(MakeSolverOptions(options)), evaluator_(threads) {}
+    : options_(options), solver_options_(MakeSolverOptions(options)), evaluator_(threads) {}
 
 SolveSummary CeresSolver::Solve(WindowProblem* problem) {
   PrepareRegistration prepare(problem, solver_options_.max_num_iterations, &evaluator_,
@@ -123,8 +149,14 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
       new MarginalizationPriorCost(problem->prior, problem->first_estimate_jacobians), nullptr,
       prepare.block(0));
 
+  StopAfterSmallStep stop(options_, &prepare);
+  ceres::Solver::Options solver_options = solver_options_;
+  if (solver_options.max_num_iterations > 1) {
+    solver_options.callbacks = {&stop};
+    solver_options.update_state_every_iteration = true;
+  }
   ceres::Solver::Summary ceres_summary;
-  ceres::Solve(solver_options_, &ceres_problem, &ceres_summary);
+  ceres::Solve(solver_options, &ceres_problem, &ceres_summary);
 
   SolveSummary summary;
   summary.iterations = static_cast<int>(ceres_summary.iterations.size()) - 1;

@@ -17,6 +17,7 @@ class CeresSolver final : public WindowSolver {
   SolveSummary Solve(WindowProblem* problem) override;
 
  private:
+  SolverOptions options_;
   ceres::Solver::Options solver_options_;
   RegistrationEvaluator evaluator_;
   std::vector<RegistrationNormalEquations> registration_;

@@ -35,14 +35,16 @@ struct WeightOptions {
   bool smoothness_scales_with_points = true;
 };
 
-/// Only read by the Ceres solver.
+/// Only read by the Ceres solver. With these defaults its steps are those of Gauss-Newton to the last
+/// bits: no damping, and no tolerance below which Ceres computes a step and then does not take it;
+/// the rounds of association end by the size of the steps.
 struct CeresOptions {
   LinearSolverKind linear_solver = LinearSolverKind::kDenseNormalCholesky;
   TrustRegionKind trust_region = TrustRegionKind::kLevenbergMarquardt;
-  double initial_trust_region_radius = 1e8;
-  double function_tolerance = 1e-6;
-  double gradient_tolerance = 1e-10;
-  double parameter_tolerance = 1e-8;
+  double initial_trust_region_radius = 1e16;
+  double function_tolerance = 0.0;
+  double gradient_tolerance = 0.0;
+  double parameter_tolerance = 0.0;
 };
 
 struct SolverOptions {
