@@ -41,7 +41,8 @@ constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
   trajlo_simulate --list
       the scenarios, a line each
   trajlo_simulate --scenario=hall_os1_16 --output=hall
-      writes hall/scans/*.pcd, hall/timestamps.txt, hall/truth.tum, hall/scenario.yaml
+      writes hall/scans/*.pcd, hall/timestamps.txt, hall/truth.tum, hall/scenario.yaml, and
+      hall/rig.yaml with the true extrinsics, for trajlo_run --config=hall/rig.yaml
   trajlo_simulate --scenario=hall_os1_16 --output=hall2 --duration_s=30 --seed=2
       another hall, another flight, other noise
   trajlo_simulate --scenario=hall_os1_16 --list_parameters

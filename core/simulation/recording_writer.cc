@@ -142,6 +142,7 @@ void RecordingWriter::Finish() {
   }
   WriteFile(directory_ / "truth.tum", truth);
   WriteFile(directory_ / "scenario.yaml", ScenarioYaml(simulator_.scenario()));
+  WriteFile(directory_ / "rig.yaml", RigYaml(simulator_.scenario()));
   WriteFile(directory_ / "picture.svg", ScenePicture(simulator_));
 }
 

@@ -17,6 +17,7 @@ namespace trajlo::simulation {
 ///   timestamps.txt         the stamp of each scan, seconds with 9 decimals
 ///   truth.tum              poses T_world_body at 1 kHz and true times, `t x y z qx qy qz qw`
 ///   scenario.yaml          all parameters, with the true extrinsics
+///   rig.yaml               the true extrinsics, for trajlo_run --config=
 ///   picture.svg            the scene and the path from above
 /// A rig of several LiDARs has lidar0/, lidar1/ ... with scans/ and timestamps.txt in each. A
 /// motion-corrected recording has KITTI's velodyne/000000.bin (x y z intensity, float32), times.txt

@@ -63,4 +63,19 @@ std::string ScenarioYaml(const Scenario& scenario) {
   return yaml;
 }
 
+std::string RigYaml(const Scenario& scenario) {
+  std::string yaml = "# The true extrinsics of " + scenario.name +
+                     ", for trajlo_run --config=\nsensor:\n  T_body_lidar:\n";
+  for (const LidarConfig& lidar : scenario.rig) {
+    const SE3& T = lidar.T_body_lidar;
+    char text[256];
+    std::snprintf(text, sizeof(text),
+                  "    - translation_m: [%.17g, %.17g, %.17g]\n"
+                  "      rotation: [%.17g, %.17g, %.17g, %.17g]\n",
+                  T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w());
+    yaml += text;
+  }
+  return yaml;
+}
+
 }  // namespace trajlo::simulation

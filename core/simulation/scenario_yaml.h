@@ -11,4 +11,7 @@ namespace trajlo::simulation {
 /// extrinsic also as a row-major 4x4 matrix.
 std::string ScenarioYaml(const Scenario& scenario);
 
+/// The true extrinsics as a config file for `trajlo_run --config=`.
+std::string RigYaml(const Scenario& scenario);
+
 }  // namespace trajlo::simulation

@@ -157,6 +157,10 @@ TEST_F(RecordingWriterTest, TheScenarioFileIsYamlWithTheTrueExtrinsics) {
   ASSERT_EQ(matrix.size(), 16U);
   EXPECT_NEAR(matrix[2], std::sin(0.1), 1e-9);
   EXPECT_EQ(matrix[11], 0.3);
+  const YAML::Node rig = YAML::LoadFile((directory_ / "rig.yaml").string());
+  const YAML::Node extrinsic = rig["sensor"]["T_body_lidar"][0];
+  EXPECT_EQ(extrinsic["translation_m"].as<std::vector<double>>()[1], 0.2);
+  EXPECT_EQ(extrinsic["rotation"].as<std::vector<double>>()[1], std::sin(0.05));
 }
 
 TEST_F(RecordingWriterTest, ThePictureShowsSceneAndPath) {
