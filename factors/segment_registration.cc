@@ -174,7 +174,8 @@ void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* const* points,
     p0 = MoveToBegin(m, alpha, c, in.p);
     n0 = RotateInverse(m.R_begin, in.n);
   }
-  // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x theta].
+  // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x
+  // theta].
   const Vector3<T> j1 = n0;
   const Vector3<T> j2 = Cross(p0, n0);
   const Vector3<T> rho = Broadcast3<T>(m.rho);
@@ -226,7 +227,8 @@ SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* poi
                                                     size_t count) const {
   Sum sum;
   // The series of the Stumpff functions, which the lanes use, hold for rotations below 1 rad.
-  const bool small = current_.angle_squared < 1.0 && (!linearized_ || linearized_->angle_squared < 1.0);
+  const bool small =
+      current_.angle_squared < 1.0 && (!linearized_ || linearized_->angle_squared < 1.0);
   const size_t vectorised = small ? count / 4 * 4 : 0;
   RunLinearize<Lane4>(points, vectorised, &sum);
   RunLinearize<double>(points + vectorised, count - vectorised, &sum);
@@ -304,15 +306,16 @@ bool SegmentRegistrationCost::Evaluate(double const* const* parameters, double* 
                                        double** jacobians) const {
   const SE3 T_begin = SE3::FromData(parameters[0]);
   const SE3 T_end = SE3::FromData(parameters[1]);
-  const SegmentLinearizer linearizer(T_begin, T_end, noise_, T_begin_linearized_);
-  RegistrationNormalEquations equations;
-  if (jacobians == nullptr) {
-    equations.cost = linearizer.Cost(points_->data(), points_->size());
-  } else {
-    equations = linearizer.Finish(linearizer.Linearize(points_->data(), points_->size()));
+  const bool is_known = last_ && std::equal(parameters[0], parameters[0] + 7, last_->poses) &&
+                        std::equal(parameters[1], parameters[1] + 7, last_->poses + 7);
+  if (!is_known) {
+    last_.emplace();
+    std::copy_n(parameters[0], 7, last_->poses);
+    std::copy_n(parameters[1], 7, last_->poses + 7);
+    last_->equations = LinearizeSegment(*points_, T_begin, T_end, noise_, T_begin_linearized_);
   }
-  WriteCondensed(equations, T_begin, T_end, residuals, jacobians);
-  return std::isfinite(equations.cost);
+  WriteCondensed(last_->equations, T_begin, T_end, residuals, jacobians);
+  return std::isfinite(last_->equations.cost);
 }
 
 bool PreparedRegistrationCost::Evaluate(double const* const* parameters, double* residuals,

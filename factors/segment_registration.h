@@ -39,9 +39,9 @@ struct RegistrationNormalEquations {
 ///   dr/dT_begin = jᵀ - vᵀ Jl⁻¹(tau),   dr/dT_end = vᵀ Jr⁻¹(tau)
 ///
 /// (Adj(Exp(-alpha tau)) Jl(alpha tau) = Jr(alpha tau), and moving both poses by one world
-/// perturbation moves the interpolated pose by it). So H and g are summed over u = [j; v] and turned
-/// into pose coordinates once, exactly. `T_begin_linearized` asks for first-estimate Jacobians:
-/// residuals at the current poses, j, v and tau at the linearisation point.
+/// perturbation moves the interpolated pose by it). So H and g are summed over u = [j; v] and
+/// turned into pose coordinates once, exactly. `T_begin_linearized` asks for first-estimate
+/// Jacobians: residuals at the current poses, j, v and tau at the linearisation point.
 class SegmentLinearizer {
  public:
   SegmentLinearizer(const SE3& T_begin, const SE3& T_end, const RegistrationNoise& noise,
@@ -100,11 +100,12 @@ void WriteCondensed(const RegistrationNormalEquations& equations, const SE3& T_b
                     const SE3& T_end, double* residuals, double** jacobians);
 
 /// The registration of a whole segment as one block of 13 residuals; equal to one PointToPlaneCost
-/// with a RobustKernelLoss for each point. Parameter blocks: T_begin, T_end. The points are read at
-/// every evaluation, so associations may change between solves.
+/// with a RobustKernelLoss for each point. Parameter blocks: T_begin, T_end.
+/// Ceres asks for the cost of a step and then, as nearly every step is accepted, for the Jacobians
+/// at the same poses: both are computed in one pass and kept for the second question.
 class SegmentRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> {
  public:
-  /// `points` must outlive the factor.
+  /// `points` must outlive the factor and stay as they are.
   SegmentRegistrationCost(const std::vector<RegistrationPoint>* points,
                           const RegistrationNoise& noise,
                           const std::optional<SE3>& T_begin_linearized = std::nullopt);
@@ -116,6 +117,12 @@ class SegmentRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> 
   const std::vector<RegistrationPoint>* points_;
   RegistrationNoise noise_;
   std::optional<SE3> T_begin_linearized_;
+  /// The last answer and its poses; a block is evaluated by one thread at a time.
+  struct Evaluation {
+    double poses[14];
+    RegistrationNormalEquations equations;
+  };
+  mutable std::optional<Evaluation> last_;
 };
 
 /// The same block where a ceres::EvaluationCallback has already computed `equations` for the state

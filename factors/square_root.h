@@ -18,8 +18,8 @@ struct SquareRoot {
 /// s = D^-½ L⁻¹ P g. Directions whose pivot is below 1e-14 of the largest one carry no information:
 /// their rows are zero (g has no part there when it comes from the same residuals as H).
 template <int N>
-SquareRoot<N> MakeSquareRoot(const Eigen::Matrix<double, N, N>& H,
-                             const Eigen::Matrix<double, N, 1>& g) {
+SquareRoot<N> MakePivotedSquareRoot(const Eigen::Matrix<double, N, N>& H,
+                                    const Eigen::Matrix<double, N, 1>& g) {
   const Eigen::LDLT<Eigen::Matrix<double, N, N>> ldlt(H);
   const Eigen::Matrix<double, N, 1> D = ldlt.vectorD();
   const double smallest = 1e-14 * D.cwiseAbs().maxCoeff();
@@ -40,6 +40,19 @@ SquareRoot<N> MakeSquareRoot(const Eigen::Matrix<double, N, N>& H,
   const Eigen::Matrix<double, N, 1> Pg = P * g;
   result.s = inverse_root.cwiseProduct(ldlt.matrixL().solve(Pg));
   return result;
+}
+
+/// The square root of a positive semi-definite H: S = Lᵀ and s = L⁻¹ g with the Cholesky factor L,
+/// which is several times faster, where H is far from singular, else the pivoted one.
+template <int N>
+SquareRoot<N> MakeSquareRoot(const Eigen::Matrix<double, N, N>& H,
+                             const Eigen::Matrix<double, N, 1>& g) {
+  const Eigen::LLT<Eigen::Matrix<double, N, N>> llt(H);
+  const double smallest_pivot = llt.matrixLLT().diagonal().cwiseAbs2().minCoeff();
+  const bool is_regular =
+      llt.info() == Eigen::Success && smallest_pivot > 1e-9 * H.diagonal().maxCoeff();
+  if (!is_regular) return MakePivotedSquareRoot<N>(H, g);
+  return {llt.matrixU(), llt.matrixL().solve(g)};
 }
 
 }  // namespace trajlo

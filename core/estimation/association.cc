@@ -7,10 +7,12 @@
 
 namespace trajlo {
 
-SegmentAssociation::Counts SegmentAssociation::Associate(
-    const std::vector<SegmentPoint>& points, const SE3& T_begin, const SE3& T_end,
-    const MapPyramid& map, const AssociationOptions& options, double threshold_m, bool renew,
-    ThreadPool* threads) {
+SegmentAssociation::Counts SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
+                                                         const SE3& T_begin, const SE3& T_end,
+                                                         const MapPyramid& map,
+                                                         const AssociationOptions& options,
+                                                         double threshold_m, bool renew,
+                                                         ThreadPool* threads) {
   entries_.resize(points.size());
   const PointInterpolator to_world(T_begin, T_end);
   const double reach_m = options.reach_in_thresholds * threshold_m;
@@ -23,10 +25,9 @@ SegmentAssociation::Counts SegmentAssociation::Associate(
     const std::size_t last = std::min(points.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < last; ++i) {
       Entry& entry = entries_[i];
-      const Eigen::Vector3d p_world =
-          to_world(points[i].alpha, points[i].p_body_m.cast<double>());
-      const bool stands = entry.state == Entry::State::kPlane ||
-                          (entry.state == Entry::State::kNone && !renew);
+      const Eigen::Vector3d p_world = to_world(points[i].alpha, points[i].p_body_m.cast<double>());
+      const bool stands =
+          entry.state == Entry::State::kPlane || (entry.state == Entry::State::kNone && !renew);
       if (stands && (p_world - entry.looked_up_at).squaredNorm() <= keep) continue;
       entry.looked_up_at = p_world;
       ++chunk_searched_[chunk];
@@ -44,8 +45,8 @@ SegmentAssociation::Counts SegmentAssociation::Associate(
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Entry& entry = entries_[i];
     if (entry.state != Entry::State::kPlane) continue;
-    active_.push_back({points[i].p_body_m.cast<double>(), points[i].alpha,
-                       entry.plane.normal_world, entry.plane.offset_m, entry.plane.weight});
+    active_.push_back({points[i].p_body_m.cast<double>(), points[i].alpha, entry.plane.normal_world,
+                       entry.plane.offset_m, entry.plane.weight});
   }
   counts.associated = static_cast<int>(active_.size());
   return counts;

@@ -5,6 +5,8 @@
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
 
+#include <cmath>
+
 #include "manifolds/se3_manifold.h"
 
 namespace trajlo {
@@ -13,11 +15,11 @@ namespace {
 /// Computes the registration of all segments before Ceres asks the blocks for it.
 class PrepareRegistration final : public ceres::EvaluationCallback {
  public:
-  PrepareRegistration(const WindowProblem* problem, int max_iterations,
+  PrepareRegistration(const WindowProblem* problem, const SolverOptions& options,
                       RegistrationEvaluator* evaluator,
                       std::vector<RegistrationNormalEquations>* equations)
       : problem_(problem),
-        max_iterations_(max_iterations),
+        options_(options),
         evaluator_(evaluator),
         equations_(equations),
         blocks_(problem->poses.size()) {
@@ -28,12 +30,15 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
   }
 
   /// Ceres asks for the cost of a step first and, as nearly every step is accepted, for the
-  /// Jacobians at the same point next: they are computed together. After the last step that it may
-  /// take, Ceres asks for Jacobians that it no longer uses; there the cost is enough.
+  /// Jacobians at the same point next: they are computed together. Jacobians at the point where the
+  /// solve ends serve marginalisation; only where each step is followed by new associations, unless
+  /// it is so small that it is the last one, nobody wants them, and the cost is enough.
   void PrepareForEvaluation(bool, bool new_evaluation_point) override {
     if (!new_evaluation_point) return;
-    is_linearized_ = points_++ < max_iterations_;
-    evaluator_->Evaluate(*problem_, Poses(), is_linearized_, equations_);
+    const std::vector<SE3> poses = Poses();
+    is_linearized_ = points_++ == 0 || options_.iterations_per_round > 1 ||
+                     MeasureStep(problem_->poses, poses).IsSmall(options_);
+    evaluator_->Evaluate(*problem_, poses, is_linearized_, equations_);
   }
 
   std::vector<SE3> Poses() const {
@@ -49,7 +54,7 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
 
  private:
   const WindowProblem* problem_;
-  int max_iterations_;
+  const SolverOptions& options_;
   RegistrationEvaluator* evaluator_;
   std::vector<RegistrationNormalEquations>* equations_;
   int points_ = 0;
@@ -57,31 +62,51 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
   std::vector<std::array<double, 7>> blocks_;
 };
 
-/// Ends the iterations by the rule of the Gauss-Newton solver: after a step that moved no pose by
-/// more than the tolerances. Ceres's own tolerances end before such a step is taken.
-class StopAfterSmallStep final : public ceres::IterationCallback {
+/// Ends the iterations by the rule of the Gauss-Newton solver: after as many steps as are wanted,
+/// or after one that moved no pose by more than the tolerances. (Ceres's own tolerances end before
+/// such a step is taken, and its own count includes steps that it rejects.)
+class StopByGaussNewtonRule final : public ceres::IterationCallback {
  public:
-  StopAfterSmallStep(const SolverOptions& options, const PrepareRegistration* state)
+  StopByGaussNewtonRule(const SolverOptions& options, const PrepareRegistration* state)
       : options_(options), state_(state), before_(state->Poses()) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
-    if (iteration.iteration == 0 || !iteration.step_is_successful) {
-      return ceres::SOLVER_CONTINUE;
+    if (iteration.iteration == 0) return ceres::SOLVER_CONTINUE;
+    if (!iteration.step_is_successful) {
+      if (!IsRoundOff(iteration)) {
+        ++rejected_steps_;
+        return ceres::SOLVER_CONTINUE;
+      }
+      ++steps_taken_;
+      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     }
+    ++steps_taken_;
     std::vector<SE3> now = state_->Poses();
-    SolveSummary step;
-    MeasureStep(before_, now, &step);
+    const StepSize step = MeasureStep(before_, now);
     before_ = std::move(now);
-    const bool is_small =
-        step.step_m < options_.step_tolerance_m && step.step_rad < options_.step_tolerance_rad;
-    return is_small ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    return steps_taken_ >= options_.iterations_per_round || step.IsSmall(options_)
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
   }
 
+  int steps_taken() const { return steps_taken_; }
+  int rejected_steps() const { return rejected_steps_; }
+
  private:
+  /// At the optimum a step changes the cost by its last bits, up or down.
+  static bool IsRoundOff(const ceres::IterationSummary& iteration) {
+    return std::abs(iteration.cost_change) < 1e-12 * iteration.cost;
+  }
+
   const SolverOptions& options_;
   const PrepareRegistration* state_;
   std::vector<SE3> before_;
+  int steps_taken_ = 0;
+  int rejected_steps_ = 0;
 };
+
+/// From no damping to a step that is short enough, Levenberg-Marquardt needs about so many tries.
+constexpr int kMostRejectedSteps = 12;
 
 ceres::Solver::Options MakeSolverOptions(const SolverOptions& options) {
   ceres::Solver::Options result;
@@ -108,7 +133,8 @@ ceres::Solver::Options MakeSolverOptions(const SolverOptions& options) {
   result.function_tolerance = c.function_tolerance;
   result.gradient_tolerance = c.gradient_tolerance;
   result.parameter_tolerance = c.parameter_tolerance;
-  result.max_num_iterations = options.iterations_per_round;
+  result.max_num_iterations = options.iterations_per_round + kMostRejectedSteps;
+  result.update_state_every_iteration = true;
   // First-estimate Jacobians are not the derivative of the residual: a step that lowers the cost a
   // little less than they promise is still right.
   result.min_relative_decrease = 0.0;
@@ -123,8 +149,7 @@ CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
     : options_(options), solver_options_(MakeSolverOptions(options)), evaluator_(threads) {}
 
 SolveSummary CeresSolver::Solve(WindowProblem* problem) {
-  PrepareRegistration prepare(problem, solver_options_.max_num_iterations, &evaluator_,
-                              &registration_);
+  PrepareRegistration prepare(problem, options_, &evaluator_, &registration_);
   SE3Manifold manifold;
   ceres::Problem::Options problem_options;
   problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -149,22 +174,20 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
       new MarginalizationPriorCost(problem->prior, problem->first_estimate_jacobians), nullptr,
       prepare.block(0));
 
-  StopAfterSmallStep stop(options_, &prepare);
+  StopByGaussNewtonRule stop(options_, &prepare);
   ceres::Solver::Options solver_options = solver_options_;
-  if (solver_options.max_num_iterations > 1) {
-    solver_options.callbacks = {&stop};
-    solver_options.update_state_every_iteration = true;
-  }
+  solver_options.callbacks = {&stop};
   ceres::Solver::Summary ceres_summary;
   ceres::Solve(solver_options, &ceres_problem, &ceres_summary);
 
   SolveSummary summary;
-  summary.iterations = static_cast<int>(ceres_summary.iterations.size()) - 1;
+  summary.iterations = stop.steps_taken();
+  summary.rejected_steps = stop.rejected_steps();
   const std::vector<SE3> solution = prepare.Poses();
   for (const SE3& pose : solution) summary.finite = summary.finite && pose.IsFinite();
   summary.finite = summary.finite && ceres_summary.IsSolutionUsable();
   if (!summary.finite) return summary;
-  MeasureStep(problem->poses, solution, &summary);
+  summary.step = MeasureStep(problem->poses, solution);
   problem->poses = solution;
   // After a rejected step the last evaluation was elsewhere.
   if (prepare.is_linearized() && ceres_summary.iterations.back().step_is_successful) {

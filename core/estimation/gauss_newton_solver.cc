@@ -17,19 +17,16 @@ SolveSummary GaussNewtonSolver::Solve(WindowProblem* problem) {
       summary.finite = false;
       return summary;
     }
-    double step_m = 0.0;
-    double step_rad = 0.0;
+    const std::vector<SE3> before = problem->poses;
     for (std::size_t k = 0; k < problem->poses.size(); ++k) {
       const Vector6d xi_k = xi.segment<6>(6 * static_cast<Eigen::Index>(k));
-      problem->poses[k] = Plus(problem->poses[k], xi_k);
-      step_m = std::max(step_m, xi_k.head<3>().norm());
-      step_rad = std::max(step_rad, xi_k.tail<3>().norm());
+      problem->poses[k] = Plus(before[k], xi_k);
     }
     ++summary.iterations;
-    if (step_m < options_.step_tolerance_m && step_rad < options_.step_tolerance_rad) break;
+    if (MeasureStep(before, problem->poses).IsSmall(options_)) break;
   }
   summary.cost = window_.cost;
-  MeasureStep(start, problem->poses, &summary);
+  summary.step = MeasureStep(start, problem->poses);
   return summary;
 }
 

@@ -11,14 +11,14 @@ namespace trajlo {
 namespace {
 
 constexpr int kRounds = 20;
-/// From here on steps are halved: the choice of neighbours makes the last centimetre flip to and fro.
+/// From here on steps are halved: the choice of neighbours makes the last centimetre flip to and
+/// fro.
 constexpr int kDampedFrom = 8;
 /// A point this near to its plane speaks for a hypothesis.
 constexpr double kAgreementM = 0.05;
 /// A start faster than this is not expected; it only holds directions that nobody measures.
 constexpr double kPriorSigmaM = 10.0;
 constexpr double kPriorSigmaRad = 2.0;
-
 
 /// The first half's points as a map, moved with the hypothesis, and the second half's planes in it.
 class Hypothesis {

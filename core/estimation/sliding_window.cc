@@ -72,12 +72,13 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
     statistics.cost_registration = summary.cost.registration;
     statistics.cost_smoothness = summary.cost.smoothness;
     statistics.cost_prior = summary.cost.prior;
-    statistics.last_step_m = summary.step_m;
-    statistics.last_step_rad = summary.step_rad;
+    statistics.rejected_steps += summary.rejected_steps;
+    statistics.last_step_m = summary.step.translation_m;
+    statistics.last_step_rad = summary.step.rotation_rad;
     finite = summary.finite;
     registration_at_solution = summary.registration;
-    converged = summary.step_m < options_.solver.step_tolerance_m &&
-                summary.step_rad < options_.solver.step_tolerance_rad;
+    // Without a step that lowers the cost, the window is as unsolved as before.
+    converged = summary.iterations > 0 && summary.step.IsSmall(options_.solver);
   }
   for (const Segment& segment : segments_) {
     statistics.points += static_cast<int>(segment.cloud.registration_points.size());
@@ -175,8 +176,8 @@ SlidingWindow::Left SlidingWindow::Marginalize() {
 
   Segment& oldest = segments_.front();
   Left left{std::move(oldest.cloud), problem_.poses[0], problem_.poses[1]};
-  velocity_before_ =
-      Minus(left.T_end, left.T_begin) / (static_cast<double>(left.cloud.end_ns - left.cloud.begin_ns) * 1e-9);
+  velocity_before_ = Minus(left.T_end, left.T_begin) /
+                     (static_cast<double>(left.cloud.end_ns - left.cloud.begin_ns) * 1e-9);
   front_ns_ = left.cloud.end_ns;
   front_flags_ = oldest.flags;
   segments_.pop_front();

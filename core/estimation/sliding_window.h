@@ -53,7 +53,7 @@ class SlidingWindow {
   RegistrationEvaluator evaluator_;
   AdaptiveThreshold threshold_;
   std::deque<Segment> segments_;
-  std::vector<Vector6d> expected_velocity_;  ///< Pseudo-velocity of each segment, per second.
+  std::vector<Vector6d> expected_velocity_;      ///< Pseudo-velocity of each segment, per second.
   Vector6d velocity_before_ = Vector6d::Zero();  ///< Of the segment before the window.
   std::int64_t front_ns_ = 0;
   unsigned front_flags_ = 0;

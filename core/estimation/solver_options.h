@@ -26,8 +26,8 @@ struct WeightOptions {
   double max_kernel_m = 0.5;
   double smoothness_sigma_translation_m = 0.12;
   double smoothness_sigma_rotation_rad = 0.1;
-  /// The sigmas are meant for segments up to this long; for longer ones (whole scans) they grow with
-  /// the square of the interval, as the way does that an acceleration changes.
+  /// The sigmas are meant for segments up to this long; for longer ones (whole scans) they grow
+  /// with the square of the interval, as the way does that an acceleration changes.
   double smoothness_interval_s = 0.03;
   /// Divides both smoothness sigmas by the root of the summed weights of the segment's associated
   /// points, so that the balance between geometry and motion does not depend on the density of the
@@ -35,9 +35,9 @@ struct WeightOptions {
   bool smoothness_scales_with_points = true;
 };
 
-/// Only read by the Ceres solver. With these defaults its steps are those of Gauss-Newton to the last
-/// bits: no damping, and no tolerance below which Ceres computes a step and then does not take it;
-/// the rounds of association end by the size of the steps.
+/// Only read by the Ceres solver. With these defaults its steps are those of Gauss-Newton to the
+/// last bits: no damping, and no tolerance below which Ceres computes a step and then does not take
+/// it; the rounds of association end by the size of the steps.
 struct CeresOptions {
   LinearSolverKind linear_solver = LinearSolverKind::kDenseNormalCholesky;
   TrustRegionKind trust_region = TrustRegionKind::kLevenbergMarquardt;

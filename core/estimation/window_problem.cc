@@ -55,8 +55,8 @@ void AssembleWindow(const WindowProblem& problem, const std::vector<SE3>& poses,
   window->g.setZero(size);
   window->cost = {};
   for (int k = 0; k < problem.segments(); ++k) {
-    const SmoothnessTerm::Linearization smooth = problem.smoothness[k].Linearize(
-        poses[k], poses[k + 1], problem.LinearizationPoint(k));
+    const SmoothnessTerm::Linearization smooth =
+        problem.smoothness[k].Linearize(poses[k], poses[k + 1], problem.LinearizationPoint(k));
     Eigen::Matrix<double, 6, 12> J;
     J << smooth.wrt_begin, smooth.wrt_end;
     window->H.block<12, 12>(6 * k, 6 * k) += registration[k].H + J.transpose() * J;
@@ -81,8 +81,7 @@ MarginalizationPrior MarginalizeOldest(const WindowProblem& problem,
   const Vector6d prior_residual = problem.prior.Residual(leaving);
   const Matrix6d prior_J = problem.prior.Jacobian(leaving, problem.first_estimate_jacobians);
   if (use_qr) {
-    const SquareRoot<12> registration =
-        MakeSquareRoot<12>(first_segment.H, first_segment.g);
+    const SquareRoot<12> registration = MakeSquareRoot<12>(first_segment.H, first_segment.g);
     Eigen::Matrix<double, Eigen::Dynamic, 12> J(24, 12);
     Eigen::VectorXd r(24);
     J << registration.S, smooth.wrt_begin, smooth.wrt_end, prior_J, Matrix6d::Zero();

@@ -15,15 +15,14 @@ std::unique_ptr<WindowSolver> MakeWindowSolver(const SolverOptions& options, Thr
   return std::make_unique<CeresSolver>(options, threads);
 }
 
-void MeasureStep(const std::vector<SE3>& start, const std::vector<SE3>& solution,
-                 SolveSummary* summary) {
-  summary->step_m = 0.0;
-  summary->step_rad = 0.0;
+StepSize MeasureStep(const std::vector<SE3>& start, const std::vector<SE3>& end) {
+  StepSize size;
   for (std::size_t i = 0; i < start.size(); ++i) {
-    const SE3 step = start[i].Inverse() * solution[i];
-    summary->step_m = std::max(summary->step_m, step.t.norm());
-    summary->step_rad = std::max(summary->step_rad, so3::Log(step.q).norm());
+    const SE3 step = start[i].Inverse() * end[i];
+    size.translation_m = std::max(size.translation_m, step.t.norm());
+    size.rotation_rad = std::max(size.rotation_rad, so3::Log(step.q).norm());
   }
+  return size;
 }
 
 }  // namespace trajlo

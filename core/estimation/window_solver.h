@@ -8,14 +8,26 @@
 
 namespace trajlo {
 
+/// How far the control poses of a window moved, at most.
+struct StepSize {
+  double translation_m = 0.0;
+  double rotation_rad = 0.0;
+
+  bool IsSmall(const SolverOptions& options) const {
+    return translation_m < options.step_tolerance_m && rotation_rad < options.step_tolerance_rad;
+  }
+};
+StepSize MeasureStep(const std::vector<SE3>& start, const std::vector<SE3>& end);
+
 struct SolveSummary {
-  int iterations = 0;
-  WindowCost cost;  ///< At the solution for Ceres, at the last linearisation for Gauss-Newton.
-  double step_m = 0.0;    ///< Largest translation of a control pose from start to solution.
-  double step_rad = 0.0;  ///< Largest rotation.
-  bool finite = true;     ///< False: the poses are those of the start.
-  /// The linearised registration at the solution, where the solver happens to have it (Ceres when it
-  /// stops before its last iteration); valid until the next solve.
+  int iterations = 0;  ///< Steps that were taken.
+  int rejected_steps =
+      0;               ///< Steps that would have raised the cost; Gauss-Newton takes those, too.
+  WindowCost cost;     ///< At the solution for Ceres, at the last linearisation for Gauss-Newton.
+  StepSize step;       ///< From start to solution.
+  bool finite = true;  ///< False: the poses are those of the start.
+  /// The linearised registration at the solution, where the solver happens to have it (Ceres when
+  /// it stops before its last iteration); valid until the next solve.
   const std::vector<RegistrationNormalEquations>* registration = nullptr;
 };
 
@@ -29,9 +41,5 @@ class WindowSolver {
 };
 
 std::unique_ptr<WindowSolver> MakeWindowSolver(const SolverOptions& options, ThreadPool* threads);
-
-/// Fills `step_m` and `step_rad` of a summary.
-void MeasureStep(const std::vector<SE3>& start, const std::vector<SE3>& solution,
-                 SolveSummary* summary);
 
 }  // namespace trajlo

@@ -9,9 +9,9 @@ namespace trajlo {
 
 /// What can be wrong with a window; bits of WindowStatistics::flags.
 enum WindowFlag : unsigned {
-  kFlagNoPoints = 1u << 0,      ///< The newest segment has no associated point: smoothness carries it.
-  kFlagGap = 1u << 1,           ///< A pause in the recording was bridged.
-  kFlagReverted = 1u << 2,      ///< A solve was not finite or jumped: the prediction stands.
+  kFlagNoPoints = 1u << 0,  ///< The newest segment has no associated point: smoothness carries it.
+  kFlagGap = 1u << 1,       ///< A pause in the recording was bridged.
+  kFlagReverted = 1u << 2,  ///< A solve was not finite or jumped: the prediction stands.
   kFlagNotConverged = 1u << 3,  ///< The rounds ran out before the steps became small.
   kFlagDegenerate = 1u << 4,    ///< A direction is held by smoothness and prior alone.
   kFlagLost = 1u << 5,          ///< Too few associations for too long.
@@ -23,11 +23,12 @@ struct WindowStatistics {
   std::int64_t begin_ns = 0;  ///< First control pose of the window.
   std::int64_t end_ns = 0;    ///< Newest control pose.
   int segments = 0;
-  int points = 0;      ///< Registration points in the window.
-  int inliers = 0;     ///< Those with a plane in the last round.
-  int searched = 0;    ///< Map queries over all rounds; the others kept their plane.
-  int rounds = 0;      ///< associate ↔ solve rounds.
-  int iterations = 0;  ///< Solver iterations over all rounds.
+  int points = 0;          ///< Registration points in the window.
+  int inliers = 0;         ///< Those with a plane in the last round.
+  int searched = 0;        ///< Map queries over all rounds; the others kept their plane.
+  int rounds = 0;          ///< associate ↔ solve rounds.
+  int iterations = 0;      ///< Solver steps over all rounds.
+  int rejected_steps = 0;  ///< Those that Ceres did not take because they raise the cost.
   double cost_registration = 0.0;
   double cost_smoothness = 0.0;
   double cost_prior = 0.0;

@@ -43,6 +43,7 @@ Row MakeRow(const WindowStatistics& w) {
   row.Add("searched", w.searched);
   row.Add("rounds", w.rounds);
   row.Add("iterations", w.iterations);
+  row.Add("rejected_steps", w.rejected_steps);
   row.Add("cost_registration", w.cost_registration);
   row.Add("cost_smoothness", w.cost_smoothness);
   row.Add("cost_prior", w.cost_prior);

@@ -36,7 +36,7 @@ struct BenchmarkWindow {
     problem.prior = MakeAnchor(truth[0], 0.01, 0.01);
     problem.noise = {0.1, {KernelKind::kCauchy, 2.0}};
     for (const SE3& pose : truth) {
-      problem.poses.push_back(Plus(pose, random.Tangent(0.005, 0.02)));
+      problem.poses.push_back(Plus(pose, random.Tangent(0.05, 0.3)));
     }
   }
 };
