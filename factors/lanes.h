@@ -3,11 +3,12 @@
 
 #include <Eigen/Core>
 
-/// The few operations of 3-vectors that the condensed registration needs, for one double or for four
-/// points at a time. (Eigen's own vectorisation is off in this project; see CMakeLists.txt.)
+/// The few operations of 3-vectors that the condensed registration needs, for one double or for
+/// four points at a time. (Eigen's own vectorisation is off in this project; see CMakeLists.txt.)
 namespace trajlo::lanes {
 
-/// Four points at a time: GCC and Clang turn this into AVX, or into pairs of SSE2 where that is all.
+/// Four points at a time: GCC and Clang turn this into AVX, or into pairs of SSE2 where that is
+/// all.
 typedef double Lane4 __attribute__((vector_size(32)));
 
 template <typename T>

@@ -13,9 +13,10 @@ namespace trajlo {
 ///
 ///   E(s) = ½ dᵀ H d + bᵀ d,   d = s ⊖ s̄,
 ///
-/// in square-root form: r = S d + r0 with SᵀS = H and Sᵀr0 = b, so that E = ½ |r|² up to a constant.
+/// in square-root form: r = S d + r0 with SᵀS = H and Sᵀr0 = b, so that E = ½ |r|² up to a
+/// constant.
 struct MarginalizationPrior {
-  SE3 linearization_point;  ///< s̄
+  SE3 linearization_point;                       ///< s̄
   Matrix6d sqrt_information = Matrix6d::Zero();  ///< S
   Vector6d offset = Vector6d::Zero();            ///< r0
 
@@ -33,8 +34,8 @@ struct MarginalizationPrior {
 MarginalizationPrior MakeAnchor(const SE3& pose, double sigma_translation_m,
                                 double sigma_rotation_rad);
 
-/// Eliminates the leaving pose from the quadratic ½ xᵀH x + gᵀx of x = [leaving; staying] (all terms
-/// that touch the leaving pose, linearised where the window was left) by the Schur complement
+/// Eliminates the leaving pose from the quadratic ½ xᵀH x + gᵀx of x = [leaving; staying] (all
+/// terms that touch the leaving pose, linearised where the window was left) by the Schur complement
 ///
 ///   H_m = H_ss - H_sl H_ll⁺ H_ls,   b_m = g_s - H_sl H_ll⁺ g_l,
 ///
@@ -47,8 +48,7 @@ MarginalizationPrior MarginalizeSchur(const Matrix12d& H, const Vector12d& g,
 /// The same by orthogonal elimination, without ever forming H: QR of the stacked [J_l J_s | r]; the
 /// rows below the leaving pose are the prior. `jacobian` is rows x 12, leaving pose first.
 MarginalizationPrior MarginalizeQr(const Eigen::Matrix<double, Eigen::Dynamic, 12>& jacobian,
-                                   const Eigen::VectorXd& residual,
-                                   const SE3& linearization_point);
+                                   const Eigen::VectorXd& residual, const SE3& linearization_point);
 
 /// MarginalizationPrior as a Ceres block on one pose.
 class MarginalizationPriorCost final : public ceres::SizedCostFunction<6, 7> {

@@ -7,34 +7,44 @@
 
 namespace trajlo {
 
-PointToPlaneCost::PointToPlaneCost(const RegistrationPoint& point, double sigma_m)
-    : point_(point), scale_(std::sqrt(point.weight) / sigma_m) {}
+double EvaluatePointToPlane(const RegistrationPoint& point, double sigma_m, const SE3& T_begin,
+                            const SE3& T_end, const std::optional<SE3>& T_begin_linearized,
+                            Eigen::Matrix<double, 1, 12>* wrt_poses) {
+  const double scale = std::sqrt(point.weight) / sigma_m;
+  const Eigen::Vector3d& n = point.normal_world;
+  Vector6d tau = Minus(T_end, T_begin);
+  SE3 T = Plus(T_begin, point.alpha * tau);
+  const double residual = scale * (n.dot(T * point.p_body_m) - point.offset_m);
+  if (wrt_poses == nullptr) return residual;
+
+  if (T_begin_linearized) {
+    tau = Minus(T_end, *T_begin_linearized);
+    T = Plus(*T_begin_linearized, point.alpha * tau);
+  }
+  const Eigen::Matrix3d R = T.q.toRotationMatrix();
+  Eigen::Matrix<double, 1, 6> dr_dphi;
+  dr_dphi << n.transpose() * R, -n.transpose() * R * so3::Hat(point.p_body_m);
+  dr_dphi *= scale;
+  const InterpolationJacobians dphi = InterpolateJacobians(tau, point.alpha);
+  *wrt_poses << dr_dphi * dphi.wrt_begin, dr_dphi * dphi.wrt_end;
+  return residual;
+}
+
+PointToPlaneCost::PointToPlaneCost(const RegistrationPoint& point, double sigma_m,
+                                   const std::optional<SE3>& T_begin_linearized)
+    : point_(point), sigma_m_(sigma_m), T_begin_linearized_(T_begin_linearized) {}
 
 bool PointToPlaneCost::Evaluate(double const* const* parameters, double* residuals,
                                 double** jacobians) const {
-  const SE3 T_begin = SE3::FromData(parameters[0]);
-  const SE3 T_end = SE3::FromData(parameters[1]);
-  const Vector6d tau = Minus(T_end, T_begin);
-  const SE3 T = Plus(T_begin, point_.alpha * tau);
-  const Eigen::Vector3d& n = point_.normal_world;
-
-  residuals[0] = scale_ * (n.dot(T * point_.p_body_m) - point_.offset_m);
+  const SE3 poses[2] = {SE3::FromData(parameters[0]), SE3::FromData(parameters[1])};
+  Eigen::Matrix<double, 1, 12> wrt_poses;
+  residuals[0] = EvaluatePointToPlane(point_, sigma_m_, poses[0], poses[1], T_begin_linearized_,
+                                      jacobians == nullptr ? nullptr : &wrt_poses);
   if (jacobians == nullptr) return true;
-
-  const Eigen::Matrix3d R = T.q.toRotationMatrix();
-  Eigen::Matrix<double, 1, 6> dr_dphi;
-  dr_dphi << n.transpose() * R, -n.transpose() * R * so3::Hat(point_.p_body_m);
-  dr_dphi *= scale_;
-  const InterpolationJacobians dphi = InterpolateJacobians(tau, point_.alpha);
-
-  using Row7 = Eigen::Matrix<double, 1, 7, Eigen::RowMajor>;
-  if (jacobians[0] != nullptr) {
-    Eigen::Map<Row7> J(jacobians[0]);
-    J = dr_dphi * dphi.wrt_begin * Se3MinusJacobian(T_begin);
-  }
-  if (jacobians[1] != nullptr) {
-    Eigen::Map<Row7> J(jacobians[1]);
-    J = dr_dphi * dphi.wrt_end * Se3MinusJacobian(T_end);
+  for (int block = 0; block < 2; ++block) {
+    if (jacobians[block] == nullptr) continue;
+    Eigen::Map<Eigen::Matrix<double, 1, 7, Eigen::RowMajor>> J(jacobians[block]);
+    J.noalias() = wrt_poses.segment<6>(6 * block) * Se3MinusJacobian(poses[block]);
   }
   return true;
 }

@@ -26,8 +26,7 @@ bool SmoothnessCost::Evaluate(double const* const* parameters, double* residuals
     r = term_.Residual(T_begin, T_end);
     return true;
   }
-  const SmoothnessTerm::Linearization linear =
-      term_.Linearize(T_begin, T_end, T_begin_linearized_);
+  const SmoothnessTerm::Linearization linear = term_.Linearize(T_begin, T_end, T_begin_linearized_);
   r = linear.residual;
   using Jacobian = Eigen::Matrix<double, 6, 7, Eigen::RowMajor>;
   if (jacobians[0] != nullptr) {

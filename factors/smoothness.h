@@ -13,9 +13,9 @@ namespace trajlo {
 ///
 ///   e = (T_end ⊖ T_begin) - tau_expected,   r = [e_rho / sigma_rho; e_theta / sigma_theta]
 ///
-/// `tau_expected` is the pseudo-velocity measurement of the paper, Ť_{k-1} ⊖ Ť_{k-2} of the previous
-/// solve (scaled by the ratio of intervals where they differ): a constant. Jacobians (paper, end of
-/// "Analytic Jacobian Derivation"), tau = T_end ⊖ T_begin:
+/// `tau_expected` is the pseudo-velocity measurement of the paper, Ť_{k-1} ⊖ Ť_{k-2} of the
+/// previous solve (scaled by the ratio of intervals where they differ): a constant. Jacobians
+/// (paper, end of "Analytic Jacobian Derivation"), tau = T_end ⊖ T_begin:
 ///
 ///   de/dT_begin = -Jl⁻¹(tau),   de/dT_end = Jr⁻¹(tau).
 struct SmoothnessTerm {

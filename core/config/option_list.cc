@@ -136,6 +136,12 @@ const Names<LinearSolverKind> kLinearSolvers = {
     {"dense_qr", LinearSolverKind::kDenseQr},
     {"sparse_normal_cholesky", LinearSolverKind::kSparseNormalCholesky},
     {"cgnr", LinearSolverKind::kCgnr}};
+const Names<RegistrationForm> kRegistrationForms = {
+    {"prepared", RegistrationForm::kPrepared},
+    {"condensed", RegistrationForm::kCondensed},
+    {"segment_residuals", RegistrationForm::kSegmentResiduals},
+    {"point", RegistrationForm::kPoint},
+    {"point_autodiff", RegistrationForm::kPointAutodiff}};
 const Names<TrustRegionKind> kTrustRegions = {
     {"levenberg_marquardt", TrustRegionKind::kLevenbergMarquardt},
     {"dogleg", TrustRegionKind::kDogleg}};
@@ -293,12 +299,17 @@ void BindSolver(SolverOptions* solver, Binder* b) {
   b->Add("solver.step_tolerance_rad", solver->step_tolerance_rad, Range<double>{0.0, 1.0},
          "... and turned by no more than this.");
   CeresOptions& ceres = solver->ceres;
+  b->Add("solver.ceres.registration", ceres.registration, kRegistrationForms,
+         "How the registration enters Ceres: 13 condensed rows a segment, computed in parallel or "
+         "each by itself; one block a segment with a residual a point; one block a point with "
+         "analytic or automatic Jacobians (without first-estimate Jacobians).");
   b->Add("solver.ceres.linear_solver", ceres.linear_solver, kLinearSolvers,
          "How Ceres solves the normal equations.");
   b->Add("solver.ceres.trust_region", ceres.trust_region, kTrustRegions,
          "How Ceres bounds its steps.");
   b->Add("solver.ceres.initial_trust_region_radius", ceres.initial_trust_region_radius,
-         Range<double>{1e-10, 1e16}, "The largest makes the first step a Gauss-Newton step to the last bits.");
+         Range<double>{1e-10, 1e16},
+         "The largest makes the first step a Gauss-Newton step to the last bits.");
   b->Add("solver.ceres.function_tolerance", ceres.function_tolerance, Range<double>{0.0, 1.0},
          "Ceres drops a step that lowers the cost by a smaller share, and stops.");
   b->Add("solver.ceres.gradient_tolerance", ceres.gradient_tolerance, Range<double>{0.0, 1.0},

@@ -1,73 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "core/estimation/ceres_solver.h"
 
-#include <ceres/evaluation_callback.h>
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
 
 #include <cmath>
 
+#include "core/estimation/ceres_registration.h"
 #include "manifolds/se3_manifold.h"
 
 namespace trajlo {
 namespace {
-
-/// Computes the registration of all segments before Ceres asks the blocks for it.
-class PrepareRegistration final : public ceres::EvaluationCallback {
- public:
-  PrepareRegistration(const WindowProblem* problem, const SolverOptions& options,
-                      RegistrationEvaluator* evaluator,
-                      std::vector<RegistrationNormalEquations>* equations)
-      : problem_(problem),
-        options_(options),
-        evaluator_(evaluator),
-        equations_(equations),
-        blocks_(problem->poses.size()) {
-    equations_->resize(problem->points.size());
-    for (std::size_t i = 0; i < blocks_.size(); ++i) {
-      std::copy_n(problem->poses[i].data(), 7, blocks_[i].data());
-    }
-  }
-
-  /// Ceres asks for the cost of a step first and, as nearly every step is accepted, for the
-  /// Jacobians at the same point next: they are computed together. Jacobians at the point where the
-  /// solve ends serve marginalisation; only where each step is followed by new associations, unless
-  /// it is so small that it is the last one, nobody wants them, and the cost is enough.
-  void PrepareForEvaluation(bool, bool new_evaluation_point) override {
-    if (!new_evaluation_point) return;
-    const std::vector<SE3> poses = Poses();
-    is_linearized_ = points_++ == 0 || options_.iterations_per_round > 1 ||
-                     MeasureStep(problem_->poses, poses).IsSmall(options_);
-    evaluator_->Evaluate(*problem_, poses, is_linearized_, equations_);
-  }
-
-  std::vector<SE3> Poses() const {
-    std::vector<SE3> poses;
-    for (const auto& block : blocks_) poses.push_back(SE3::FromData(block.data()));
-    return poses;
-  }
-
-  /// Whether the equations hold more than the cost.
-  bool is_linearized() const { return is_linearized_; }
-  double* block(int k) { return blocks_[static_cast<std::size_t>(k)].data(); }
-  const RegistrationNormalEquations* equations(int k) const { return &(*equations_)[k]; }
-
- private:
-  const WindowProblem* problem_;
-  const SolverOptions& options_;
-  RegistrationEvaluator* evaluator_;
-  std::vector<RegistrationNormalEquations>* equations_;
-  int points_ = 0;
-  bool is_linearized_ = false;
-  std::vector<std::array<double, 7>> blocks_;
-};
 
 /// Ends the iterations by the rule of the Gauss-Newton solver: after as many steps as are wanted,
 /// or after one that moved no pose by more than the tolerances. (Ceres's own tolerances end before
 /// such a step is taken, and its own count includes steps that it rejects.)
 class StopByGaussNewtonRule final : public ceres::IterationCallback {
  public:
-  StopByGaussNewtonRule(const SolverOptions& options, const PrepareRegistration* state)
+  StopByGaussNewtonRule(const SolverOptions& options, const PoseBlocks* state)
       : options_(options), state_(state), before_(state->Poses()) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
@@ -99,7 +49,7 @@ class StopByGaussNewtonRule final : public ceres::IterationCallback {
   }
 
   const SolverOptions& options_;
-  const PrepareRegistration* state_;
+  const PoseBlocks* state_;
   std::vector<SE3> before_;
   int steps_taken_ = 0;
   int rejected_steps_ = 0;
@@ -149,32 +99,31 @@ CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
     : options_(options), solver_options_(MakeSolverOptions(options)), evaluator_(threads) {}
 
 SolveSummary CeresSolver::Solve(WindowProblem* problem) {
-  PrepareRegistration prepare(problem, options_, &evaluator_, &registration_);
+  const bool is_prepared = options_.ceres.registration == RegistrationForm::kPrepared;
+  PoseBlocks blocks(problem->poses);
+  PrepareRegistration prepare(problem, options_, &blocks, &evaluator_, &registration_);
   SE3Manifold manifold;
+  RobustKernelLoss loss(problem->noise.kernel);
   ceres::Problem::Options problem_options;
   problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   problem_options.disable_all_safety_checks = true;
-  problem_options.evaluation_callback = &prepare;
+  if (is_prepared) problem_options.evaluation_callback = &prepare;
   ceres::Problem ceres_problem(problem_options);
   for (std::size_t k = 0; k < problem->poses.size(); ++k) {
-    ceres_problem.AddParameterBlock(prepare.block(static_cast<int>(k)), 7, &manifold);
+    ceres_problem.AddParameterBlock(blocks.block(static_cast<int>(k)), 7, &manifold);
   }
+  AddRegistration(*problem, options_.ceres.registration, prepare, &loss, &blocks, &ceres_problem);
   for (int k = 0; k < problem->segments(); ++k) {
-    double* begin = prepare.block(k);
-    double* end = prepare.block(k + 1);
-    if (!problem->points[k]->empty()) {
-      ceres_problem.AddResidualBlock(new PreparedRegistrationCost(prepare.equations(k)), nullptr,
-                                     begin, end);
-    }
     ceres_problem.AddResidualBlock(
-        new SmoothnessCost(problem->smoothness[k], problem->LinearizationPoint(k)), nullptr, begin,
-        end);
+        new SmoothnessCost(problem->smoothness[k], problem->LinearizationPoint(k)), nullptr,
+        blocks.block(k), blocks.block(k + 1));
   }
   ceres_problem.AddResidualBlock(
       new MarginalizationPriorCost(problem->prior, problem->first_estimate_jacobians), nullptr,
-      prepare.block(0));
+      blocks.block(0));
 
-  StopByGaussNewtonRule stop(options_, &prepare);
+  StopByGaussNewtonRule stop(options_, &blocks);
   ceres::Solver::Options solver_options = solver_options_;
   solver_options.callbacks = {&stop};
   ceres::Solver::Summary ceres_summary;
@@ -183,24 +132,24 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
   SolveSummary summary;
   summary.iterations = stop.steps_taken();
   summary.rejected_steps = stop.rejected_steps();
-  const std::vector<SE3> solution = prepare.Poses();
+  for (const ceres::IterationSummary& iteration : ceres_summary.iterations) {
+    if (iteration.step_is_successful) summary.costs.push_back(iteration.cost);
+  }
+  summary.linear_solve_s = ceres_summary.linear_solver_time_in_seconds;
+  const std::vector<SE3> solution = blocks.Poses();
   for (const SE3& pose : solution) summary.finite = summary.finite && pose.IsFinite();
   summary.finite = summary.finite && ceres_summary.IsSolutionUsable();
   if (!summary.finite) return summary;
   summary.step = MeasureStep(problem->poses, solution);
   problem->poses = solution;
   // After a rejected step the last evaluation was elsewhere.
-  if (prepare.is_linearized() && ceres_summary.iterations.back().step_is_successful) {
+  if (is_prepared && prepare.is_linearized() &&
+      ceres_summary.iterations.back().step_is_successful) {
     summary.registration = &registration_;
   }
 
-  summary.cost.prior = 0.5 * problem->prior.Residual(solution[0]).squaredNorm();
-  for (int k = 0; k < problem->segments(); ++k) {
-    summary.cost.smoothness +=
-        0.5 * problem->smoothness[k].Residual(solution[k], solution[k + 1]).squaredNorm();
-  }
-  summary.cost.registration =
-      ceres_summary.final_cost - summary.cost.smoothness - summary.cost.prior;
+  summary.cost = CostWithoutRegistration(*problem);
+  summary.cost.registration = ceres_summary.final_cost - summary.cost.Total();
   return summary;
 }
 

@@ -2,6 +2,7 @@
 #include "core/estimation/gauss_newton_solver.h"
 
 #include <Eigen/Cholesky>
+#include <chrono>
 
 namespace trajlo {
 
@@ -11,7 +12,11 @@ SolveSummary GaussNewtonSolver::Solve(WindowProblem* problem) {
   for (int iteration = 0; iteration < options_.iterations_per_round; ++iteration) {
     evaluator_.Evaluate(*problem, problem->poses, true, &registration_);
     AssembleWindow(*problem, problem->poses, registration_, &window_);
+    summary.costs.push_back(window_.cost.Total());
+    const auto solve_start = std::chrono::steady_clock::now();
     const Eigen::VectorXd xi = -window_.H.ldlt().solve(window_.g);
+    summary.linear_solve_s +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - solve_start).count();
     if (!xi.allFinite()) {
       problem->poses = start;
       summary.finite = false;

@@ -14,6 +14,15 @@ enum class LinearSolverKind {
 };
 enum class TrustRegionKind { kLevenbergMarquardt, kDogleg };
 
+/// How the registration of a segment enters Ceres.
+enum class RegistrationForm {
+  kPrepared,          ///< Condensed to 13 rows, computed for all segments in parallel.
+  kCondensed,         ///< Condensed to 13 rows, each block by itself.
+  kSegmentResiduals,  ///< One block with one residual a point.
+  kPoint,             ///< One block a point, the plain reference.
+  kPointAutodiff,     ///< The same by automatic differentiation, without first-estimate Jacobians.
+};
+
 /// The weights of the energy. A sigma is a standard deviation, and a residual is divided by it.
 /// The paper writes covariances Q_r = 0.1 I, Q_v = 0.05 I, its published code weighs smoothness by
 /// the number of points; only the ratio of the sigmas and that number matter to the optimum.
@@ -39,6 +48,7 @@ struct WeightOptions {
 /// last bits: no damping, and no tolerance below which Ceres computes a step and then does not take
 /// it; the rounds of association end by the size of the steps.
 struct CeresOptions {
+  RegistrationForm registration = RegistrationForm::kPrepared;
   LinearSolverKind linear_solver = LinearSolverKind::kDenseNormalCholesky;
   TrustRegionKind trust_region = TrustRegionKind::kLevenbergMarquardt;
   double initial_trust_region_radius = 1e16;

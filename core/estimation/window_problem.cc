@@ -9,6 +9,16 @@
 
 namespace trajlo {
 
+WindowCost CostWithoutRegistration(const WindowProblem& problem) {
+  WindowCost cost;
+  cost.prior = 0.5 * problem.prior.Residual(problem.poses[0]).squaredNorm();
+  for (int k = 0; k < problem.segments(); ++k) {
+    cost.smoothness +=
+        0.5 * problem.smoothness[k].Residual(problem.poses[k], problem.poses[k + 1]).squaredNorm();
+  }
+  return cost;
+}
+
 void RegistrationEvaluator::Evaluate(const WindowProblem& problem, const std::vector<SE3>& poses,
                                      bool jacobians,
                                      std::vector<RegistrationNormalEquations>* equations) {

@@ -40,6 +40,9 @@ struct WindowCost {
   double Total() const { return registration + smoothness + prior; }
 };
 
+/// The cost of smoothness and prior at `problem.poses`.
+WindowCost CostWithoutRegistration(const WindowProblem& problem);
+
 /// Evaluates the registration of all segments, in parallel over fixed chunks of points whose sums
 /// are added in order: the same bits for any number of threads.
 class RegistrationEvaluator {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/estimation/solver_options.h"
 #include "core/estimation/window_problem.h"
@@ -26,6 +27,10 @@ struct SolveSummary {
   WindowCost cost;     ///< At the solution for Ceres, at the last linearisation for Gauss-Newton.
   StepSize step;       ///< From start to solution.
   bool finite = true;  ///< False: the poses are those of the start.
+  /// The total cost at the start and after each step that was taken; Gauss-Newton does not compute
+  /// that of its last one.
+  std::vector<double> costs;
+  double linear_solve_s = 0.0;  ///< Time spent on the linear equations.
   /// The linearised registration at the solution, where the solver happens to have it (Ceres when
   /// it stops before its last iteration); valid until the next solve.
   const std::vector<RegistrationNormalEquations>* registration = nullptr;

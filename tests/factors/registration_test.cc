@@ -5,6 +5,7 @@
 
 #include "factors/point_to_plane.h"
 #include "factors/segment_registration.h"
+#include "factors/segment_residuals.h"
 #include "tests/support/autodiff_twins.h"
 #include "tests/support/factor_testing.h"
 #include "tests/support/random_poses.h"
@@ -219,6 +220,54 @@ TEST(SegmentRegistration, AScanAtOneInstantOnlyConstrainsThatPose) {
   const auto condensed = LinearizeSegment(points, begin, end, {0.1, {KernelKind::kNone, 1.0}});
   EXPECT_LT((condensed.H.topRows<6>().norm()), 1e-6);
   EXPECT_GT((condensed.H.bottomRightCorner<6, 6>().norm()), 1.0);
+}
+
+TEST(PointToPlane, FirstEstimateTakesTheJacobianThereAndTheResidualHere) {
+  Random random(9);
+  const SE3 begin = random.Pose();
+  const SE3 end = Plus(begin, random.Tangent(0.1, 0.3));
+  const SE3 first = Plus(begin, random.Tangent(0.02, 0.05));
+  const RegistrationPoint point = RandomPoint(&random, 0.7);
+  const PointToPlaneCost plain(point, 0.1), first_estimate(point, 0.1, first);
+  double r = 0.0, r_plain = 0.0;
+  const double* blocks[2] = {begin.data(), end.data()};
+  plain.Evaluate(blocks, &r_plain, nullptr);
+  first_estimate.Evaluate(blocks, &r, nullptr);
+  EXPECT_EQ(r, r_plain);
+  EXPECT_LT(
+      (TangentJacobian(first_estimate, {begin, end}, 1) - TangentJacobian(plain, {first, end}, 1))
+          .norm(),
+      1e-12);
+}
+
+TEST(SegmentResiduals, PassesCeresGradientCheckerAndNullJacobianCalls) {
+  Random random(10);
+  const SE3 begin = random.Pose();
+  const SE3 end = Plus(begin, random.Tangent(0.2, 0.5));
+  const auto points = RandomSegment(&random, begin, end, 12, 0.2);
+  // Wide kernels: numeric derivatives take steps of metres.
+  for (KernelKind kind : {KernelKind::kNone, KernelKind::kCauchy, KernelKind::kGemanMcClure}) {
+    const SegmentResidualsCost factor(&points, {0.1, {kind, 100.0}});
+    testing::ExpectJacobiansMatchNumericOnes(factor, {begin, end}, 1e-5);
+    testing::ExpectNullJacobianFormsWork(factor, {begin, end});
+  }
+}
+
+TEST_P(SegmentRegistration, HasTheCostAndTheGradientOfSegmentResiduals) {
+  Random random(11);
+  const SE3 begin = random.Pose();
+  const SE3 end = Plus(begin, random.Tangent(0.1, 0.3));
+  const auto points = RandomSegment(&random, begin, end, 57, 0.2);
+  const RegistrationNoise noise{0.1, {GetParam(), 2.0}};
+  const SegmentResidualsCost factor(&points, noise);
+  Eigen::MatrixXd J(57, 12);
+  J << TangentJacobian(factor, {begin, end}, 0), TangentJacobian(factor, {begin, end}, 1);
+  Eigen::VectorXd r(57);
+  const double* blocks[2] = {begin.data(), end.data()};
+  factor.Evaluate(blocks, r.data(), nullptr);
+  const auto condensed = LinearizeSegment(points, begin, end, noise);
+  EXPECT_NEAR(0.5 * r.squaredNorm(), condensed.cost, 1e-9 * (1.0 + condensed.cost));
+  EXPECT_LT((J.transpose() * r - condensed.g).norm(), 1e-9 * (1.0 + condensed.g.norm()));
 }
 
 TEST(RobustKernel, IsTheLossOfCeresWhereCeresHasOne) {
