@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 namespace trajlo {
 
@@ -13,6 +14,14 @@ class FileBytes {
  public:
   FileBytes() = default;
   explicit FileBytes(std::size_t size) : data_(new char[size]), size_(size) {}
+  // What is moved from is empty.
+  FileBytes(FileBytes&& other) noexcept
+      : data_(std::move(other.data_)), size_(std::exchange(other.size_, 0)) {}
+  FileBytes& operator=(FileBytes&& other) noexcept {
+    data_ = std::move(other.data_);
+    size_ = std::exchange(other.size_, 0);
+    return *this;
+  }
 
   char* data() { return data_.get(); }
   const char* data() const { return data_.get(); }

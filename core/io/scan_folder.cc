@@ -93,6 +93,7 @@ void ScanFolder::Probe() {
 }
 
 void ScanFolder::SetRegularStamps() {
+  has_assumed_stamps_ = true;
   // A sweep that differs clearly from the configured period knows better.
   const double sweep_s = 1e-9 * static_cast<double>(convention_.sweep_ns);
   double period_s = options_.scan_period_s;

@@ -47,6 +47,12 @@ class ScanFolder : public ScanSource {
   const ReadReport& report() const override { return report_; }
 
   const TimeConvention& time_convention() const { return convention_; }
+  /// The files in their order.
+  const ScanListing& listing() const { return listing_; }
+  /// One for each file, or none if the points' times give the stamps.
+  const ScanStamps& stamps() const { return stamps_; }
+  /// Nothing gave stamps: a scan every `scan_period_s` (or sweep) is assumed.
+  bool has_assumed_stamps() const { return has_assumed_stamps_; }
 
  private:
   /// What became of one file.
@@ -66,6 +72,7 @@ class ScanFolder : public ScanSource {
   ScanFolderOptions options_;
   ScanListing listing_;
   ScanStamps stamps_;
+  bool has_assumed_stamps_ = false;
   TimeConvention convention_;
   std::string description_;
   ReadReport report_;

@@ -2,25 +2,18 @@
 #include "core/io/trajectory_reader.h"
 
 #include <array>
-#include <charconv>
 #include <string_view>
 
 #include "core/io/ascii_table.h"
 #include "core/io/errors.h"
 #include "core/io/file_bytes.h"
+#include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
 
 namespace trajlo {
 namespace {
 
 enum class LineKind { kPose, kUnusable, kMalformed };
-
-bool ParseNumber(std::string_view word, double* value) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-  const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, *value);
-  return error == std::errc() && stop == end;
-}
 
 LineKind ParseLine(std::string_view line, StampedPose* pose) {
   const std::string_view stamp = TakeWord(&line);
@@ -47,8 +40,11 @@ LineKind ParseLine(std::string_view line, StampedPose* pose) {
 
 std::vector<StampedPose> ReadTum(const std::filesystem::path& path,
                                  std::vector<std::string>* warnings) {
-  const FileBytes bytes = ReadFileBytes(path);
-  std::string_view text = bytes.view();
+  return ParseTum(path, ReadFileBytes(path).view(), warnings);
+}
+
+std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string_view text,
+                                  std::vector<std::string>* warnings) {
   const bool ends_with_line = !text.empty() && text.back() == '\n';
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   std::vector<StampedPose> poses;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "manifolds/se3.h"
@@ -23,5 +24,9 @@ struct StampedPose {
 /// Everything else that is not eight numbers throws InputError with the line's number.
 std::vector<StampedPose> ReadTum(const std::filesystem::path& path,
                                  std::vector<std::string>* warnings = nullptr);
+
+/// The same for text that is in memory; `path` is used in messages only.
+std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string_view text,
+                                  std::vector<std::string>* warnings = nullptr);
 
 }  // namespace trajlo

@@ -7,16 +7,11 @@
 #include <utility>
 
 #include "core/io/errors.h"
+#include "core/io/recording/time_probe.h"
 #include "core/io/scan_decoder.h"
-#include "core/io/scan_stamps.h"
 
 namespace trajlo {
 namespace {
-
-/// The first message is often partial: several of each topic are asked for their times.
-constexpr std::size_t kProbedMessages = 5;
-/// A LiDAR that has not spoken after so many messages of others is opened without evidence.
-constexpr std::size_t kMostProbedMessages = 500;
 
 std::string CloudTopics(const CloudMessageReader& reader) {
   std::string text;
@@ -59,73 +54,6 @@ std::vector<std::size_t> ChooseTopics(const std::filesystem::path& path,
   return chosen;
 }
 
-/// What the first messages of one topic tell.
-struct Probed {
-  TimeEvidence evidence;
-  std::vector<std::int64_t> stamps_ns, recorded_ns;
-  std::string fields;
-  std::size_t readable = 0;
-
-  /// Drivers without a clock leave the stamps at zero.
-  bool HasStamps() const {
-    return std::any_of(stamps_ns.begin(), stamps_ns.end(), [](auto t_ns) { return t_ns != 0; });
-  }
-};
-
-void Note(const std::filesystem::path& path, const CloudMessage& message, const TimeOptions& time,
-          Probed* probed) {
-  LidarScan scan;
-  try {
-    DecodeScan(path, message.table, {}, 0, &scan);  // Throws if it has no positions.
-  } catch (const InputError&) {
-    return;
-  }
-  ++probed->readable;
-  if (probed->fields.empty()) probed->fields = message.table.FieldNames();
-  if (message.stamp_ns) probed->stamps_ns.push_back(*message.stamp_ns);
-  probed->recorded_ns.push_back(message.recorded_ns);
-  if (!time.use_point_times || message.table.count == 0) return;
-  const Column* column = FindTimeColumn(message.table, time.field);
-  if (column == nullptr && !time.field.empty()) {
-    throw InputError(path,
-                     "time_field '" + time.field +
-                         "' is sought, but the messages have: " + message.table.FieldNames(),
-                     "Set time_field to one of these, or leave it empty.");
-  }
-  TimeEvidence& evidence = probed->evidence;
-  if (column == nullptr || (!evidence.field.empty() && column->name != evidence.field)) return;
-  evidence.path = path;
-  evidence.field = column->name;
-  evidence.type = column->type;
-  if (std::optional<TimeSample> sample = SampleTimes(message.table, *column)) {
-    sample->stamp_ns = message.stamp_ns;
-    sample->recorded_ns = message.recorded_ns;
-    evidence.samples.push_back(*sample);
-  }
-}
-
-TimeConvention Decide(Probed probed, const TimeOptions& time) {
-  TimeConvention convention;
-  const bool has_stamps = probed.HasStamps();
-  if (!has_stamps) {
-    probed.stamps_ns = probed.recorded_ns;
-    for (TimeSample& sample : probed.evidence.samples) sample.stamp_ns = sample.recorded_ns;
-  }
-  if (!time.use_point_times) {
-    convention.evidence = "no point times: switched off by point_time none";
-  } else if (probed.evidence.field.empty()) {
-    convention.evidence =
-        "no point times: none of the fields (" + probed.fields + ") has a known name";
-  } else {
-    probed.evidence.period_s = TypicalPeriod(probed.stamps_ns);
-    convention = DeduceTimeConvention(probed.evidence, time);
-  }
-  if (!has_stamps) {
-    convention.evidence += "; the stamps are not filled, the time of recording stands for them";
-  }
-  return convention;
-}
-
 }  // namespace
 
 CloudRecording::CloudRecording(const std::filesystem::path& path, const Open& open,
@@ -154,30 +82,22 @@ void CloudRecording::SelectStreams(const RecordingOptions& options, std::size_t 
 /// Decides the time convention of each LiDAR from its first messages.
 void CloudRecording::Probe(CloudMessageReader* reader, const RecordingOptions& options) {
   std::vector<std::size_t> topics;
-  for (const Stream& stream : streams_) topics.push_back(stream.topic);
-  reader->Select(topics);
-  std::vector<Probed> probed(streams_.size());
-  std::size_t missing = streams_.size();
-  CloudMessage message;
-  for (std::size_t n = 0; n < kMostProbedMessages && missing > 0 && reader->Next(&message); ++n) {
-    const auto i = static_cast<std::size_t>(std::find(topics.begin(), topics.end(), message.topic) -
-                                            topics.begin());
-    if (probed[i].readable >= kProbedMessages) continue;
-    Note(path_, message, options.TimeOf(static_cast<std::size_t>(streams_[i].lidar_id)),
-         &probed[i]);
-    missing -= probed[i].readable >= kProbedMessages ? 1 : 0;
+  std::vector<TimeProbe> probes;
+  for (const Stream& stream : streams_) {
+    topics.push_back(stream.topic);
+    probes.emplace_back(path_, options.TimeOf(static_cast<std::size_t>(stream.lidar_id)));
   }
-  const bool none = std::all_of(probed.begin(), probed.end(),
-                                [](const Probed& one) { return one.readable == 0; });
+  ProbeTimes(topics, reader, &probes);
+  const bool none = std::all_of(probes.begin(), probes.end(),
+                                [](const TimeProbe& one) { return one.readable() == 0; });
   if (none) {
     const auto& warnings = reader->report().warnings;
     throw InputError(path_, "no message with points can be read",
                      warnings.empty() ? "" : warnings.front());
   }
   for (std::size_t i = 0; i < streams_.size(); ++i) {
-    const auto lidar = static_cast<std::size_t>(streams_[i].lidar_id);
-    streams_[i].stamp_is_recorded = !probed[i].HasStamps();
-    streams_[i].convention = Decide(std::move(probed[i]), options.TimeOf(lidar));
+    streams_[i].stamp_is_recorded = !probes[i].HasStamps();
+    streams_[i].convention = probes[i].Decide();
   }
 }
 

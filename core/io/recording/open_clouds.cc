@@ -1,14 +1,96 @@
 // SPDX-License-Identifier: MIT
 #include "core/io/recording/open_clouds.h"
 
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
 #include "core/io/errors.h"
+#include "core/io/messages/ros_cloud_reader.h"
+#include "core/io/packets/packet_cloud_reader.h"
+#include "core/io/recording/chained_clouds.h"
+#include "core/io/ros1/ros1_bag_reader.h"
+#include "core/io/ros2/rosbag2_reader.h"
+#include "core/io/scan_listing.h"
 
 namespace trajlo {
+namespace {
 
-bool HoldsClouds(const std::filesystem::path&) { return false; }
+namespace fs = std::filesystem;
 
-std::unique_ptr<CloudMessageReader> OpenClouds(const std::filesystem::path& path) {
-  throw InputError(path, "", "");
+/// The ROS 1 bags of a folder, in the natural order of their names.
+std::vector<fs::path> Ros1Bags(const fs::path& folder) {
+  std::vector<fs::path> bags;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const fs::path extension = entry.path().extension();
+    if (extension == ".bag" || extension == ".active") bags.push_back(entry.path());
+  }
+  std::sort(bags.begin(), bags.end(), [](const fs::path& a, const fs::path& b) {
+    return NaturalLess(a.filename().string(), b.filename().string());
+  });
+  return bags;
+}
+
+std::string FirstBytes(const fs::path& path) {
+  std::array<char, 16> bytes{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), bytes.size());
+  return {bytes.data(), static_cast<std::size_t>(file.gcount())};
+}
+
+bool BeginsWith(const std::string& bytes, std::string_view magic) {
+  return bytes.compare(0, magic.size(), magic) == 0;
+}
+
+bool IsCapture(const std::string& bytes) {
+  using namespace std::literals;
+  const auto magics = {"\xd4\xc3\xb2\xa1"sv, "\xa1\xb2\xc3\xd4"sv, "\x4d\x3c\xb2\xa1"sv,
+                       "\xa1\xb2\x3c\x4d"sv, "\x0a\x0d\x0d\x0a"sv};
+  return std::any_of(magics.begin(), magics.end(),
+                     [&](std::string_view magic) { return BeginsWith(bytes, magic); });
+}
+
+std::unique_ptr<CloudMessageReader> OpenRos1(const fs::path& path) {
+  return std::make_unique<RosCloudReader>(std::make_unique<Ros1BagReader>(path), path);
+}
+
+std::unique_ptr<CloudMessageReader> OpenRos2(const fs::path& path) {
+  return std::make_unique<RosCloudReader>(std::make_unique<Rosbag2Reader>(path), path);
+}
+
+std::unique_ptr<CloudMessageReader> OpenFile(const fs::path& path) {
+  const std::string bytes = FirstBytes(path);
+  if (BeginsWith(bytes, "#ROSBAG V")) return OpenRos1(path);
+  if (IsCapture(bytes) || path.extension() == ".bin") {
+    return std::make_unique<PacketCloudReader>(path);
+  }
+  const bool is_ros2 =
+      BeginsWith(bytes, "\x89MCAP") || BeginsWith(bytes, "SQLite format 3") || IsRos2Bag(path);
+  if (is_ros2) return OpenRos2(path);
+  throw InputError(path, "this file is neither a bag (.bag, .db3, .mcap) nor a capture (.pcap)",
+                   "For scans as .pcd, .ply or .bin, give the folder that holds them.");
+}
+
+}  // namespace
+
+bool HoldsClouds(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) return true;
+  return fs::is_directory(path, error) && (IsRos2Bag(path) || !Ros1Bags(path).empty());
+}
+
+std::unique_ptr<CloudMessageReader> OpenClouds(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return OpenFile(path);
+  const std::vector<fs::path> bags = Ros1Bags(path);
+  if (bags.empty()) return OpenRos2(path);
+  std::vector<std::unique_ptr<CloudMessageReader>> parts;
+  for (const fs::path& bag : bags) parts.push_back(OpenRos1(bag));
+  if (parts.size() == 1) return std::move(parts.front());
+  return std::make_unique<ChainedClouds>(std::move(parts));
 }
 
 }  // namespace trajlo

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "core/io/messages/cloud_message.h"
+#include "core/io/messages/raw_message.h"
 
 namespace trajlo {
 
@@ -16,5 +18,13 @@ bool HoldsClouds(const std::filesystem::path& path);
 /// folder of bags, which are read one after the other in the natural order of their names. The kind
 /// is told by the first bytes, not by the name. Throws InputError.
 std::unique_ptr<CloudMessageReader> OpenClouds(const std::filesystem::path& path);
+
+/// The ROS 1 bags that `path` names: itself, or those in the folder, in the natural order of their
+/// names. Empty if it names none.
+std::vector<std::filesystem::path> Ros1BagsOf(const std::filesystem::path& path);
+
+/// Opens a ROS 1 bag, or a ROS 2 bag (a file or a folder), whatever messages are in it. Throws
+/// InputError.
+std::unique_ptr<RawMessageReader> OpenMessages(const std::filesystem::path& path);
 
 }  // namespace trajlo

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/euroc_csv.h"
+
+#include <array>
+
+#include "core/io/errors.h"
+#include "core/io/number_text.h"
+#include "core/io/stamp_text.h"
+#include "core/io/trajectory_lines.h"
+
+namespace trajlo {
+namespace {
+
+/// Takes the next field off a line of csv, without the blanks around it.
+std::string_view TakeField(std::string_view* line) {
+  const std::size_t comma = line->find(',');
+  std::string_view field = line->substr(0, comma);
+  line->remove_prefix(comma == std::string_view::npos ? line->size() : comma + 1);
+  return TakeWord(&field);
+}
+
+}  // namespace
+
+std::vector<StampedPose> ParseEurocCsv(const std::filesystem::path& path, std::string_view text,
+                                       std::vector<std::string>* warnings) {
+  std::vector<StampedPose> poses;
+  MeaningfulLines lines(text);
+  bool first = true;
+  for (std::string_view line; lines.Next(&line); first = false) {
+    const std::string_view stamp = TakeField(&line);
+    double stamp_number = 0.0;
+    bool well_formed = ParseNumber(stamp, &stamp_number);
+    if (first && !well_formed) continue;
+    std::array<double, 7> v{};
+    for (double& value : v) well_formed = well_formed && ParseNumber(TakeField(&line), &value);
+    if (!well_formed) {
+      throw InputError(
+          path, "line " + std::to_string(lines.number()) + " is not 't_ns,x,y,z,qw,qx,qy,qz'",
+          "EuRoC's csv has at least these eight columns, separated by commas.");
+    }
+    StampedPose pose;
+    const auto t_ns = ParseDecimalNs(stamp, 1);
+    pose.T_world_body.t = Eigen::Vector3d(v[0], v[1], v[2]);
+    pose.T_world_body.q = Eigen::Quaterniond(v[3], v[4], v[5], v[6]);
+    if (!t_ns || !pose.T_world_body.IsFinite() || pose.T_world_body.q.norm() < 1e-6) {
+      if (warnings != nullptr) {
+        warnings->push_back(path.string() + ": line " + std::to_string(lines.number()) +
+                            " is skipped: a number is not finite or the quaternion is zero");
+      }
+      continue;
+    }
+    pose.t_ns = *t_ns;
+    pose.T_world_body.q.normalize();
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+}  // namespace trajlo

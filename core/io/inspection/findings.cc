@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/inspection/findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "core/io/stamp_text.h"
+
+namespace trajlo {
+namespace {
+
+/// Sweeps meet within this share of a sweep; a limited field of view leaves longer pauses.
+constexpr double kOverlapShare = 0.1;
+constexpr double kPauseShare = 0.5;
+constexpr std::size_t kFewReturns = 500;
+
+[[gnu::format(printf, 1, 2)]] std::string Text(const char* format, ...) {
+  char text[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof(text), format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings) {
+  if (!cloud.time_problem.empty()) {
+    findings->push_back("trajlo_run will refuse: " + cloud.time_problem);
+  } else if (!cloud.convention.HasPointTimes()) {
+    findings->push_back(
+        "points have no times of their own: right for motion-corrected scans only, others blur "
+        "with every turn");
+  }
+  if (cloud.stamp_is_recorded) {
+    findings->push_back("the stamps are not filled: jitter of the recorder goes into the times");
+  }
+  if (cloud.stamp_is_assumed) {
+    findings->push_back(
+        "nothing gives the scans' stamps: an even count is assumed "
+        "(input.stamps_file, input.scan_period_s)");
+  }
+  if (!cloud.sweeps) return;
+  const SweepSummary& sweeps = *cloud.sweeps;
+  if (sweeps.pause_s < -kOverlapShare * sweeps.span_s) {
+    findings->push_back(
+        Text("sweeps overlap by %.4g s: unit or origin of the times may be wrong "
+             "(input.time_unit, input.time_origin)",
+             -sweeps.pause_s));
+  } else if (sweeps.pause_s > kPauseShare * sweeps.span_s) {
+    findings->push_back(Text("sweeps are %.4g s long, with pauses of %.4g s between them",
+                             sweeps.span_s, sweeps.pause_s));
+  }
+  if (sweeps.points_without_time > 0) {
+    findings->push_back(
+        Text("%zu points have impossible times and are dropped", sweeps.points_without_time));
+  }
+}
+
+void JudgeStamps(const StampSummary& stamps, std::vector<std::string>* findings) {
+  if (!stamps.gaps.empty()) {
+    const auto longest = std::max_element(
+        stamps.gaps.begin(), stamps.gaps.end(),
+        [](const StampGap& a, const StampGap& b) { return a.length_ns < b.length_ns; });
+    findings->push_back(
+        Text("%zu gaps, about %zu scans are missing; the longest, %.4g s, is after ",
+             stamps.gaps.size(), stamps.missing, 1e-9 * static_cast<double>(longest->length_ns)) +
+        FormatSeconds(longest->after_ns) + " s");
+  }
+  if (stamps.duplicates > 0) {
+    findings->push_back(Text("%zu stamps repeat the one before, the first at ", stamps.duplicates) +
+                        FormatSeconds(*stamps.first_duplicate_ns) + " s");
+  }
+  if (stamps.steps_back > 0) {
+    findings->push_back(Text("%zu stamps step back by up to %.4g s, the first at ",
+                             stamps.steps_back, stamps.largest_step_back_s) +
+                        FormatSeconds(*stamps.first_step_back_ns) + " s");
+  }
+  if (stamps.jitter_s > 0.05 * stamps.period_s) {
+    findings->push_back(Text("the stamps jitter by %.2g s (root mean square), %.2g s at most",
+                             stamps.jitter_s, stamps.largest_deviation_s));
+  }
+}
+
+void JudgePoints(const CloudInspection& cloud, std::vector<std::string>* findings) {
+  const PointSummary& points = cloud.points;
+  if (cloud.messages_unreadable > 0) {
+    findings->push_back(Text("%zu messages cannot be read: ", cloud.messages_unreadable) +
+                        cloud.first_unreadable);
+  }
+  if (cloud.messages_damaged > 0) {
+    findings->push_back(Text("%zu messages are damaged, the first: ", cloud.messages_damaged) +
+                        cloud.first_damage);
+  }
+  if (points.empty_messages > 0) {
+    findings->push_back(Text("%zu messages have no points", points.empty_messages));
+  }
+  const std::size_t readable = cloud.messages_read - cloud.messages_unreadable;
+  if (readable > 0 && points.Returns() < kFewReturns * readable) {
+    findings->push_back(
+        Text("only %zu returns a message: little to register", points.Returns() / readable));
+  }
+  if (cloud.frame_ids.size() > 1) {
+    findings->push_back(Text("%zu frame ids on one topic", cloud.frame_ids.size()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> FindingsOf(const CloudInspection& cloud) {
+  std::vector<std::string> findings;
+  JudgeTimes(cloud, &findings);
+  JudgeStamps(cloud.stamps, &findings);
+  JudgePoints(cloud, &findings);
+  return findings;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/inspection/point_summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/inspection/median.h"
+
+namespace trajlo {
+namespace {
+
+const Column* FindRings(const PointTable& table) {
+  for (const char* name : {"ring", "line", "channel", "laser_id", "laserid", "scan_id"}) {
+    const Column* column = table.Find(name);
+    if (column != nullptr && IsInteger(column->type)) return column;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void PointCounter::Add(const PointTable& table, const LidarScan& scan) {
+  points_per_message_.push_back(scan.points.size());
+  summary_.total += scan.points.size();
+  summary_.empty_messages += scan.points.empty() ? 1 : 0;
+  for (const LidarPoint& point : scan.points) {
+    if (!point.xyz_m.allFinite()) {
+      ++summary_.not_finite;
+      continue;
+    }
+    const double range_m = point.xyz_m.cast<double>().norm();
+    if (range_m == 0.0) {
+      ++summary_.at_origin;
+      continue;
+    }
+    const bool first = summary_.range_max_m == 0.0;
+    summary_.range_min_m = first ? range_m : std::min(summary_.range_min_m, range_m);
+    summary_.range_max_m = std::max(summary_.range_max_m, range_m);
+    ++range_histogram_[static_cast<std::size_t>(
+        std::min(100.0 * range_m, static_cast<double>(kRangeBins - 1)))];
+  }
+  const Column* rings = FindRings(table);
+  if (rings == nullptr) return;
+  has_rings_ = true;
+  VisitColumn(table, *rings, 0, table.count, [&](std::size_t, auto value) {
+    const auto ring = static_cast<std::uint64_t>(value);
+    if (ring < rings_.size()) rings_[ring] = true;
+  });
+}
+
+double PointCounter::RangeQuantile(double share) const {
+  const auto returns = static_cast<double>(summary_.Returns());
+  double sum = 0.0;
+  for (std::size_t bin = 0; bin < kRangeBins; ++bin) {
+    sum += static_cast<double>(range_histogram_[bin]);
+    if (sum > 0.0 && sum >= share * returns) {
+      const double middle_m = 0.01 * (static_cast<double>(bin) + 0.5);
+      return std::clamp(middle_m, summary_.range_min_m, summary_.range_max_m);
+    }
+  }
+  return 0.0;
+}
+
+PointSummary PointCounter::Summarise() const {
+  PointSummary summary = summary_;
+  if (!points_per_message_.empty()) {
+    const auto [fewest, most] =
+        std::minmax_element(points_per_message_.begin(), points_per_message_.end());
+    summary.fewest = *fewest;
+    summary.most = *most;
+    summary.median = MedianOf(points_per_message_);
+  }
+  summary.range_median_m = RangeQuantile(0.5);
+  summary.range_99_m = RangeQuantile(0.99);
+  if (has_rings_) {
+    PointSummary::Rings rings;
+    for (std::uint32_t ring = 0; ring < rings_.size(); ++ring) {
+      if (!rings_[ring]) continue;
+      if (rings.distinct++ == 0) rings.lowest = ring;
+      rings.highest = ring;
+    }
+    summary.rings = rings;
+  }
+  return summary;
+}
+
+}  // namespace trajlo

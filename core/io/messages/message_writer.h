@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/io/messages/message_header.h"
+#include "core/sensing/lidar_scan.h"
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+/// As which driver writes them.
+enum class CloudLayout {
+  /// sensor_msgs/PointCloud2 of 48 bytes a point: x y z intensity (float32), t (uint32, ns),
+  /// reflectivity ring ambient (uint16), range (uint32, mm).
+  kOuster,
+  /// sensor_msgs/PointCloud2 of 22 bytes a point: x y z intensity (float32), ring (uint16),
+  /// time (float32, s).
+  kVelodyne,
+  /// livox_ros_driver/CustomMsg: intensity becomes reflectivity, rounded and clamped to 0..255.
+  kLivox
+};
+
+/// What a ROS 1 bag says about a connection besides its topic.
+struct MessageDescription {
+  const char* type;
+  const char* md5sum;
+  const char* definition;
+};
+
+const MessageDescription& DescriptionOf(CloudLayout layout);
+const MessageDescription& PoseStampedDescription();
+
+/// Serialises a scan in ROS 1's encoding. Point times count from `sweep_start_ns`; the header's
+/// stamp may be another time, as with drivers that stamp the end of the sweep. Positions and
+/// (except for Livox) intensities keep all bits, also those of NaN; the scan does not know rings
+/// and ambient light, which become 0. Throws std::invalid_argument if an Ouster's or Livox's time
+/// does not fit: before the sweep's start or more than 4.29 s behind it.
+std::string WriteCloud(CloudLayout layout, const MessageHeader& header, std::int64_t sweep_start_ns,
+                       const LidarScan& scan);
+
+/// geometry_msgs/PoseStamped in ROS 1's encoding.
+std::string WritePoseStamped(const MessageHeader& header, const SE3& T_world_body);
+
+}  // namespace trajlo

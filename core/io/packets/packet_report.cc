@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What PacketCloudReader says about losses.
+#include <algorithm>
+
+#include "core/io/packets/packet_cloud_reader.h"
+
+namespace trajlo {
+
+bool PacketCloudReader::IsPortOfSensor(std::uint16_t port) const {
+  return std::any_of(survey_.streams.begin(), survey_.streams.end(), [&](const auto& stream) {
+    return stream.IsReadable() && stream.port == port;
+  });
+}
+
+void PacketCloudReader::ReportCapture() {
+  const CaptureCounts& counts = capture_.counts();
+  const auto warn = [&](const std::string& sentence) {
+    report_.warnings.push_back(path_.string() + ": " + sentence);
+  };
+  report_.bytes_lost = counts.bytes_lost;
+  report_.damaged = !counts.damage.empty() || counts.truncated > 0 || counts.incomplete > 0;
+  if (!counts.damage.empty()) warn(counts.damage);
+  if (counts.truncated > 0) {
+    warn(std::to_string(counts.truncated) +
+         " packets were captured in part only and are left out (record with a snap length of 0)");
+  }
+  if (counts.incomplete > 0) {
+    warn(std::to_string(counts.incomplete) + " packets lack IP fragments and are left out");
+  }
+  for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
+    const PacketStream& stream = survey_.streams[topic];
+    const std::string& name = topics_[topic].name;
+    if (!stream.problem.empty()) {
+      warn(name + ": " + std::to_string(stream.datagrams) + " " + stream.problem);
+    } else if (stream.foreign > 0 && !IsPortOfSensor(stream.port)) {
+      warn(name + ": " + std::to_string(stream.foreign) +
+           " datagrams are no lidar packets and are passed over");
+    } else if (stream.kind == PacketStream::Kind::kOuster && stream.serial != 0) {
+      const OusterMetadata& metadata = survey_.metadata[stream.metadata];
+      if (metadata.serial == 0 || metadata.serial == stream.serial) continue;
+      warn(name + ": the packets are of the sensor " + std::to_string(stream.serial) + ", but " +
+           metadata.path.string() + " is of " + std::to_string(metadata.serial));
+    }
+  }
+}
+
+void PacketCloudReader::ReportStreams() {
+  for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
+    const Reading& reading = readings_[topic];
+    if (reading.stream == nullptr) continue;
+    const StreamCounts& counts = reading.stream->counts();
+    const auto warn = [&](std::uint64_t count, const char* what) {
+      if (count == 0) return;
+      report_.warnings.push_back(path_.string() + ": " + topics_[topic].name + ": " +
+                                 std::to_string(count) + " " + what);
+    };
+    report_.damaged =
+        report_.damaged || reading.wrong_size > 0 || counts.broken > 0 || counts.broken_columns > 0;
+    const bool ouster = survey_.streams[topic].kind == PacketStream::Kind::kOuster;
+    warn(reading.wrong_size, "datagrams have another size than its packets and are left out");
+    warn(counts.broken, "packets contradict themselves and are left out");
+    warn(counts.broken_columns, "columns have an impossible number or time and are left out");
+    warn(counts.duplicates, ouster ? "columns came twice" : "packets came twice");
+    warn(counts.late, "packets came too late for their sweep and are left out");
+    warn(counts.missing, ouster ? "columns of whole sweeps never came (lost packets)"
+                                : "packets never came (gaps between the others)");
+  }
+}
+
+}  // namespace trajlo

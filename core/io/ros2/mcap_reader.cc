@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/ros2/mcap_reader.h"
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "core/io/errors.h"
+#include "core/io/ros2/unpack.h"
+
+namespace trajlo {
+namespace {
+
+std::shared_ptr<const InputFile> OpenMcap(const std::filesystem::path& path,
+                                          const std::filesystem::path& shown) {
+  auto file = std::make_shared<const InputFile>(path);
+  if (file->ReadAt(0, kMcapMagic.size()).view() != kMcapMagic) {
+    throw InputError(shown, "this is no MCAP file: it does not begin with the format's mark",
+                     "Give a file that ends with .mcap, or a bag of another kind.");
+  }
+  return file;
+}
+
+}  // namespace
+
+McapReader::McapReader(const std::filesystem::path& path, std::filesystem::path shown)
+    : shown_(shown.empty() ? path : std::move(shown)) {
+  const auto file = OpenMcap(path, shown_);
+  index_ = ReadMcapIndex(file, shown_);
+  if (topics().empty()) {
+    throw InputError(shown_,
+                     "no channel is in the " + std::to_string(file->size()) + " bytes of the file",
+                     "The recording was empty, or was cut off before the first message.");
+  }
+  stream_ = std::make_unique<McapStream>(file, shown_, index_.chunk_offsets, &report_);
+  selected_.assign(topics().size(), true);
+  met_.assign(topics().size(), 0);
+}
+
+void McapReader::Select(const std::vector<std::size_t>& topics) {
+  selected_.assign(selected_.size(), false);
+  for (const std::size_t topic : topics) selected_.at(topic) = true;
+}
+
+bool McapReader::Next(RawMessage* message) {
+  McapRecord record;
+  while (stream_->Next(&record)) {
+    if (record.opcode != McapOpcode::kMessage) continue;
+    const auto found = ParseMcapMessage(record.content);
+    const std::size_t* topic = found ? index_.topics.Find(found->channel_id) : nullptr;
+    if (topic == nullptr || !selected_[*topic]) continue;
+    ++met_[*topic];
+    message->topic = *topic;
+    message->recorded_ns = found->log_time_ns;
+    message->bytes = FileBytes(found->data.size());
+    std::memcpy(message->bytes.data(), found->data.data(), found->data.size());
+    if (topics()[*topic].encoding == Encoding::kCdr && !UnpackMessage(&message->bytes)) {
+      ++not_unpacked_;
+      report_.damaged = true;
+      report_.bytes_lost += found->data.size();
+      continue;
+    }
+    return true;
+  }
+  if (!finished_) Finish();
+  return false;
+}
+
+void McapReader::Finish() {
+  finished_ = true;
+  std::uint64_t listed = 0;
+  std::uint64_t met = 0;
+  for (std::size_t i = 0; i < met_.size(); ++i) {
+    if (!selected_[i]) continue;
+    listed += topics()[i].messages;
+    met += met_[i];
+  }
+  if (met < listed) {
+    report_.damaged = true;
+    report_.warnings.push_back(shown_.string() + ": the file lists " + std::to_string(listed) +
+                               " messages of the topics that are read, " + std::to_string(met) +
+                               " were found");
+  }
+  if (not_unpacked_ > 0) {
+    report_.warnings.push_back(shown_.string() + ": " + std::to_string(not_unpacked_) +
+                               " messages are broken where they are compressed");
+  }
+}
+
+}  // namespace trajlo

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/trajectory_file.h"
+
+#include <algorithm>
+
+#include "core/io/errors.h"
+#include "core/io/euroc_csv.h"
+#include "core/io/file_bytes.h"
+#include "core/io/kitti_poses.h"
+#include "core/io/number_text.h"
+#include "core/io/stamp_text.h"
+#include "core/io/trajectory_lines.h"
+#include "core/io/trajectory_reader.h"
+
+namespace trajlo {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+// A file full of the same defect is described by its first lines.
+constexpr std::size_t kWarningsPerFile = 3;
+
+bool IsWholeNumber(std::string_view word) {
+  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+TrajectoryFormat Detect(const std::filesystem::path& path, std::string_view text) {
+  MeaningfulLines lines(text);
+  std::string_view line;
+  if (!lines.Next(&line)) return TrajectoryFormat::kTum;
+  const std::string where = "line " + std::to_string(lines.number());
+  if (line.find(',') != std::string_view::npos) {
+    std::string_view stamp = line.substr(0, line.find(','));
+    stamp = TakeWord(&stamp);
+    double number = 0.0;
+    // With a fraction these would be seconds, and nobody could tell the order of the quaternion.
+    if (IsWholeNumber(stamp) || !ParseNumber(stamp, &number)) return TrajectoryFormat::kEuroc;
+    throw InputError(path, where + " is separated by commas but has no stamp in nanoseconds",
+                     "EuRoC's csv begins with whole nanoseconds; TUM's format has blanks "
+                     "between its columns.");
+  }
+  std::size_t columns = 0;
+  while (!TakeWord(&line).empty()) ++columns;
+  if (columns == 8) return TrajectoryFormat::kTum;
+  if (columns == 12) return TrajectoryFormat::kKitti;
+  throw InputError(path, where + " has " + std::to_string(columns) + " columns",
+                   "Trajectories have 8 (TUM: stamp x y z qx qy qz qw) or 12 (KITTI: the pose's "
+                   "first three rows), or are EuRoC's csv.");
+}
+
+/// A stamp in ns, us or ms in a file that should have seconds is the usual mistake.
+void CheckStampUnit(const std::filesystem::path& path, std::string_view text) {
+  MeaningfulLines lines(text);
+  std::string_view line;
+  if (!lines.Next(&line)) return;
+  const std::string_view stamp = TakeWord(&line);
+  if (!IsWholeNumber(stamp) || ParseDecimalNs(stamp, kSecondNs)) return;
+  throw InputError(path,
+                   "the stamp " + std::string(stamp) + " of line " +
+                       std::to_string(lines.number()) + " would be in the far future",
+                   "TUM's format has stamps in seconds; these look like ns, us or ms.");
+}
+
+void Condense(std::size_t from, std::vector<std::string>* warnings) {
+  if (warnings->size() <= from + kWarningsPerFile) return;
+  const std::size_t more = warnings->size() - from - kWarningsPerFile;
+  warnings->resize(from + kWarningsPerFile);
+  warnings->back() += " (and " + std::to_string(more) + " more lines)";
+}
+
+}  // namespace
+
+const char* TrajectoryFormatName(TrajectoryFormat format) {
+  switch (format) {
+    case TrajectoryFormat::kTum:
+      return "tum";
+    case TrajectoryFormat::kKitti:
+      return "kitti";
+    case TrajectoryFormat::kEuroc:
+      return "euroc";
+    case TrajectoryFormat::kAuto:
+      break;
+  }
+  return "auto";
+}
+
+std::optional<TrajectoryFormat> ParseTrajectoryFormat(std::string_view name) {
+  for (const TrajectoryFormat format : {TrajectoryFormat::kAuto, TrajectoryFormat::kTum,
+                                        TrajectoryFormat::kKitti, TrajectoryFormat::kEuroc}) {
+    if (name == TrajectoryFormatName(format)) return format;
+  }
+  return {};
+}
+
+TrajectoryFile ReadTrajectory(const std::filesystem::path& path, TrajectoryFormat format,
+                              std::vector<std::string>* warnings) {
+  const FileBytes bytes = ReadFileBytes(path);
+  const std::size_t earlier_warnings = warnings->size();
+  TrajectoryFile file;
+  file.format = format == TrajectoryFormat::kAuto ? Detect(path, bytes.view()) : format;
+  std::vector<StampedPose> poses;
+  if (file.format == TrajectoryFormat::kKitti) {
+    file.T_world_body = ParseKittiPoses(path, bytes.view(), warnings);
+  } else if (file.format == TrajectoryFormat::kEuroc) {
+    poses = ParseEurocCsv(path, bytes.view(), warnings);
+  } else {
+    CheckStampUnit(path, bytes.view());
+    poses = ParseTum(path, bytes.view(), warnings);
+  }
+  for (const StampedPose& pose : poses) {
+    file.t_ns.push_back(pose.t_ns);
+    file.T_world_body.emplace_back(Eigen::Translation3d(pose.T_world_body.t) * pose.T_world_body.q);
+  }
+  Condense(earlier_warnings, warnings);
+  if (file.T_world_body.empty()) {
+    throw InputError(path, "holds no poses", "Is the file complete, and is it a trajectory?");
+  }
+  return file;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/trajectory_file.h"
+
+#include <gmock/gmock.h>
+
+#include "core/io/errors.h"
+#include "tests/core/io/io_testing.h"
+
+namespace trajlo {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class TrajectoryFileTest : public testing::Test {
+ protected:
+  TrajectoryFile Read(const std::string& text, TrajectoryFormat format = TrajectoryFormat::kAuto) {
+    warnings_.clear();
+    return ReadTrajectory(folder_.Write("a.txt", text), format, &warnings_);
+  }
+  std::string ErrorOf(const std::string& text) {
+    try {
+      Read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TempFolder folder_;
+  std::vector<std::string> warnings_;
+};
+
+TEST_F(TrajectoryFileTest, TheFormatIsToldByTheFirstLine) {
+  const TrajectoryFile tum = Read("\xEF\xBB\xBF# stamp ...\r\n\r\n 1.5\t1 2 3 0 0 0 2 \r\n");
+  EXPECT_EQ(tum.format, TrajectoryFormat::kTum);
+  EXPECT_THAT(tum.t_ns, ElementsAre(1'500'000'000));
+  const TrajectoryFile kitti = Read("1 0 0 4 0 1 0 5 0 0 1 6  \n");
+  EXPECT_EQ(kitti.format, TrajectoryFormat::kKitti);
+  EXPECT_THAT(kitti.t_ns, IsEmpty());
+  EXPECT_EQ(kitti.T_world_body[0].translation(), Eigen::Vector3d(4, 5, 6));
+  const TrajectoryFile euroc =
+      Read("#timestamp, p, q\n1403715524907143168, 1, 2, 3, 0.5, 0.5, 0.5, 0.5, 9, 9\n");
+  EXPECT_EQ(euroc.format, TrajectoryFormat::kEuroc);
+  EXPECT_THAT(euroc.t_ns, ElementsAre(1403715524907143168));
+}
+
+TEST_F(TrajectoryFileTest, EurocHasTheScalarFirstAndTumHasItLast) {
+  Eigen::Matrix3d quarter_about_z;
+  quarter_about_z << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const TrajectoryFile euroc = Read("timestamp,x,y,z,qw,qx,qy,qz\n5,1,2,3,1,0,0,1\n");
+  EXPECT_TRUE(euroc.T_world_body[0].linear().isApprox(quarter_about_z, 1e-15));
+  const TrajectoryFile tum = Read("5 1 2 3 0 0 1 1\n");
+  EXPECT_TRUE(tum.T_world_body[0].linear().isApprox(quarter_about_z, 1e-15));
+}
+
+TEST_F(TrajectoryFileTest, AFormatThatIsGivenIsNotGuessed) {
+  EXPECT_THROW(Read("1 0 0 4 0 1 0 5 0 0 1 6\n", TrajectoryFormat::kTum), InputError);
+  EXPECT_EQ(Read("1.5,1,2,3,1,0,0,0\n", TrajectoryFormat::kEuroc).t_ns.size(), 1u);
+}
+
+TEST_F(TrajectoryFileTest, KittiRotationsAreKeptAsWrittenUnlessTheyAreFarOff) {
+  EXPECT_EQ(Read("1.00001 0 0 0 0 1 0 0 0 0 1 0\n").T_world_body[0].linear()(0, 0), 1.00001);
+  EXPECT_THAT(warnings_, IsEmpty());
+  const TrajectoryFile projected = Read("1.001 0 0 0 0 1.001 0 0 0 0 1.001 0\n");
+  EXPECT_TRUE(projected.T_world_body[0].linear().isIdentity(1e-15));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("nearest rotations")));
+  EXPECT_THAT(ErrorOf("2 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr("no rotation"));
+  EXPECT_THAT(ErrorOf("-1 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr("no rotation"));
+}
+
+TEST_F(TrajectoryFileTest, UnusableLinesAreSkippedWhereStampsTellWhichOnes) {
+  const TrajectoryFile euroc = Read("1,nan,0,0,1,0,0,0\n2,0,0,0,0,0,0,0\n3,0,0,0,1,0,0,0\n");
+  EXPECT_THAT(euroc.t_ns, ElementsAre(3));
+  EXPECT_THAT(warnings_, ElementsAre(HasSubstr("line 1"), HasSubstr("line 2")));
+  EXPECT_THAT(ErrorOf("1 0 0 nan 0 1 0 5 0 0 1 6\n"), HasSubstr("not finite"));
+}
+
+TEST_F(TrajectoryFileTest, ManyWarningsAreCondensed) {
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += std::to_string(i) + " nan 0 0 0 0 0 1\n";
+  Read(text + "100 0 0 0 0 0 0 1\n");
+  ASSERT_EQ(warnings_.size(), 3u);
+  EXPECT_THAT(warnings_[2], HasSubstr("97 more lines"));
+}
+
+TEST_F(TrajectoryFileTest, MessagesSayWhatWasFoundAndWhatIsWanted) {
+  EXPECT_THAT(ErrorOf("1 2 3\n"), testing::AllOf(HasSubstr("3 columns"), HasSubstr("TUM")));
+  EXPECT_THAT(ErrorOf("0 1 0 0 4 0 1 0 5 0 0 1 6\n"), HasSubstr("13 columns"));
+  EXPECT_THAT(ErrorOf("1005802000000 0 0 0 0 0 0 1\n"), HasSubstr("ns, us or ms"));
+  EXPECT_THAT(ErrorOf("1.5,1,2,3,1,0,0,0\n"), HasSubstr("nanoseconds"));
+  EXPECT_THAT(ErrorOf("1,2,3,4,x,6,7,8\n"), HasSubstr("line 1"));
+  EXPECT_THAT(ErrorOf("# nothing\n"), HasSubstr("no poses"));
+  EXPECT_THAT(ErrorOf("1 0 0 4 0 1 0 5 0 0 1 6\n1 0 0 4\n"), HasSubstr("line 2"));
+}
+
+}  // namespace
+}  // namespace trajlo
