@@ -13,7 +13,7 @@
 #include "core/io/recording/open_recording.h"
 #include "core/report/versions.h"
 
-DEFINE_string(input, "", "the recording: a folder of scans, or several separated by commas");
+DEFINE_string(input, "", "the recording: bag, capture or folder of scans; several with commas");
 DEFINE_string(output, "", "the folder to write");
 DEFINE_string(config, "", "YAML files, separated by commas; later ones override earlier ones");
 DEFINE_string(set, "", "options to change: key=value, separated by commas");
@@ -21,6 +21,7 @@ DEFINE_string(solver, "", "ceres or gauss_newton");
 DEFINE_int32(threads, -1, "0 for all cores; the result does not depend on it");
 DEFINE_double(rate, 0.0, "poses per second in trajectory.tum; 0 writes the control poses");
 DEFINE_string(at, "", "one pose per scan: scan-end or scan-mid");
+DEFINE_bool(covariance, false, "write covariance.csv");
 DEFINE_bool(overwrite, false, "replace an earlier result in the output folder");
 DEFINE_bool(quiet, false, "print warnings and errors only");
 DEFINE_bool(show_config, false, "print the configuration with all options explained, and stop");
@@ -39,6 +40,11 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
         result/windows.csv      what happened in every window
         result/config.yaml      all options as they were
         result/run.json         counts, times, warnings, how it ended
+  trajlo_run --input=flight.bag --output=result
+      reads a ROS 1 bag, a ROS 2 bag (.db3, .mcap, or the folder), a capture of Velodyne or Ouster
+      packets (.pcap), or a folder of bags that follow each other
+  trajlo_run --input=flight.bag --output=result --set=input.topics=/os1_cloud_node1/points
+      one of several topics; [/a,/b] takes two LiDARs (trajlo_info shows what is there)
   trajlo_run --input=recording --output=result --config=config/outdoor.yaml
       options from a file; several, separated by commas, override each other
   trajlo_run --input=recording --output=result --set=window.segments=3,map.voxel_size_m=0.4
@@ -55,6 +61,7 @@ More flags:
   --threads=N                   0 for all cores; the result does not depend on it
   --rate=HZ                     trajectory.tum at even times
   --at=scan-end|scan-mid        trajectory.tum with one pose per scan
+  --covariance                  covariance.csv beside the trajectory: 6x6 of every control pose
   --overwrite                   replace an earlier result
   --quiet                       print warnings and errors only
   --version                     versions of this program and of what it stands on
@@ -111,6 +118,7 @@ trajlo::RunRequest RequestFromFlags() {
   if (request.inputs.empty()) throw ConfigError("--input is missing");
   if (FLAGS_output.empty()) throw ConfigError("--output is missing");
   request.output = FLAGS_output;
+  request.covariance = FLAGS_covariance;
   request.overwrite = FLAGS_overwrite;
   request.quiet = FLAGS_quiet;
   return request;

@@ -13,6 +13,7 @@
 #include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_writer.h"
+#include "core/report/covariance_csv.h"
 #include "core/report/processing_time.h"
 #include "core/report/progress_bar.h"
 #include "core/report/resource_usage.h"
@@ -58,6 +59,11 @@ class Run {
       summary_->windows.Add(window);
       inlier_share_ = window.InlierShare();
     });
+    if (!request.covariance) return;
+    covariance_.emplace(folder.covariance(), IfExists::kReplace);
+    odometry_.OnPose([this](const ControlPose& pose, const Matrix6d& covariance) {
+      covariance_->Append(pose, covariance);
+    });
   }
 
   /// Feeds the estimator; returns early when `stop` is set.
@@ -84,6 +90,7 @@ class Run {
     trajectory_.Flush();
     trajectory_.Close();
     windows_.Close();
+    if (covariance_) covariance_->Close();
     std::vector<CloudPoint> points;
     odometry_.map().finest().ForEachPoint([&](const Eigen::Vector3d& p) {
       points.push_back({p.cast<float>(), 0.0F});
@@ -142,6 +149,7 @@ class Run {
   TrajectorySampler sampler_;
   TumWriter trajectory_;
   WindowCsvWriter windows_;
+  std::optional<CovarianceCsvWriter> covariance_;
   Odometry odometry_;
   ProcessingTime processing_;
   double inlier_share_ = 0.0;

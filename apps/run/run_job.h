@@ -13,10 +13,11 @@ namespace trajlo {
 
 /// What the command line of trajlo_run asks for.
 struct RunRequest {
-  std::vector<std::string> inputs;  ///< A folder per LiDAR.
+  std::vector<std::string> inputs;  ///< See OpenRecording().
   std::string output;
   RunConfig config;
   SamplingOptions sampling;
+  bool covariance = false;  ///< Write covariance.csv, too.
   bool overwrite = false;
   bool quiet = false;  ///< Only warnings and errors are printed.
   std::vector<std::string> command_line;

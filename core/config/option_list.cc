@@ -359,6 +359,9 @@ void BindEstimation(OdometryOptions* odometry, Binder* b) {
          Range<double>{0.0, 1.0},
          "Below this information per point a direction counts as degenerate (a well-spread scene "
          "has 0.05 to 0.2).");
+  b->Add("covariance_scale", odometry->covariance_scale, Range<double>{1e-6, 1e9},
+         "Multiplies the covariances that are written: the window takes the map for exact and the "
+         "errors of its points for independent, so 1 is optimistic.");
   b->Add("threads", odometry->threads, Range<int>{0, 1024},
          "0 takes all cores; no result depends on it.");
 }

@@ -135,6 +135,8 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
   for (const ceres::IterationSummary& iteration : ceres_summary.iterations) {
     if (iteration.step_is_successful) summary.costs.push_back(iteration.cost);
   }
+  summary.evaluate_s = ceres_summary.residual_evaluation_time_in_seconds +
+                       ceres_summary.jacobian_evaluation_time_in_seconds;
   summary.linear_solve_s = ceres_summary.linear_solver_time_in_seconds;
   const std::vector<SE3> solution = blocks.Poses();
   for (const SE3& pose : solution) summary.finite = summary.finite && pose.IsFinite();

@@ -2,7 +2,8 @@
 #include "core/estimation/gauss_newton_solver.h"
 
 #include <Eigen/Cholesky>
-#include <chrono>
+
+#include "core/estimation/stopwatch.h"
 
 namespace trajlo {
 
@@ -10,13 +11,13 @@ SolveSummary GaussNewtonSolver::Solve(WindowProblem* problem) {
   const std::vector<SE3> start = problem->poses;
   SolveSummary summary;
   for (int iteration = 0; iteration < options_.iterations_per_round; ++iteration) {
+    Stopwatch watch;
     evaluator_.Evaluate(*problem, problem->poses, true, &registration_);
     AssembleWindow(*problem, problem->poses, registration_, &window_);
     summary.costs.push_back(window_.cost.Total());
-    const auto solve_start = std::chrono::steady_clock::now();
+    summary.evaluate_s += watch.Seconds();
     const Eigen::VectorXd xi = -window_.H.ldlt().solve(window_.g);
-    summary.linear_solve_s +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - solve_start).count();
+    summary.linear_solve_s += watch.Seconds();
     if (!xi.allFinite()) {
       problem->poses = start;
       summary.finite = false;

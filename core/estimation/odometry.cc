@@ -2,28 +2,15 @@
 #include "core/estimation/odometry.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/estimation/initial_motion.h"
 #include "core/estimation/sliding_window.h"
+#include "core/estimation/stopwatch.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
-
-class Stopwatch {
- public:
-  double Milliseconds() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
-    start_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 double Seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
@@ -31,12 +18,12 @@ double Seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 class Odometry::Impl {
  public:
-  explicit Impl(const OdometryOptions& options)
+  Impl(const OdometryOptions& options, const WindowSolverFactory& make_solver)
       : options_(options),
         threads_(options.threads),
         segmenter_(options.segmenter),
         map_(options.map),
-        window_(options, &map_, &threads_) {}
+        window_(options, &map_, &threads_, make_solver) {}
 
   void AddScan(const LidarScan& scan) {
     Stopwatch watch;
@@ -50,7 +37,7 @@ class Odometry::Impl {
     ProcessSegments();
     if (!started_) return;
     while (window_.segments() > 0) Leave();
-    trajectory_.Append(window_.front_pose());
+    SettleFront();
   }
 
   OdometryOptions options_;
@@ -60,6 +47,7 @@ class Odometry::Impl {
   SlidingWindow window_;
   Trajectory trajectory_;
   std::function<void(const WindowStatistics&)> callback_;
+  std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;
 
  private:
@@ -86,7 +74,7 @@ class Odometry::Impl {
       if (motion.agreement > gain * motion.agreement_at_rest) tau = motion.tau;
     }
     AddToMap(cloud, SE3(), se3::Exp(tau));
-    if (duration_s > 0.0) trajectory_.Append({cloud.begin_ns, SE3(), 0});
+    if (duration_s > 0.0) Settle({cloud.begin_ns, SE3(), 0}, Matrix6d::Zero());
     window_.Start(cloud.end_ns, se3::Exp(tau),
                   duration_s > 0.0 ? Vector6d(tau / duration_s) : Vector6d::Zero());
   }
@@ -108,10 +96,20 @@ class Odometry::Impl {
     if (callback_) callback_(statistics);
   }
 
+  /// The pose at the front of the window is final.
+  void SettleFront() {
+    Settle(window_.front_pose(), on_pose_ ? window_.front_covariance() : Matrix6d::Zero());
+  }
+
+  void Settle(const ControlPose& pose, const Matrix6d& covariance) {
+    trajectory_.Append(pose);
+    if (on_pose_) on_pose_(pose, options_.covariance_scale * covariance);
+  }
+
   /// The oldest segment leaves: its first pose is settled, its points enter the map.
   std::pair<double, double> Leave() {
     Stopwatch watch;
-    trajectory_.Append(window_.front_pose());
+    SettleFront();
     const SlidingWindow::Left left = window_.Marginalize();
     const double marginalize_ms = watch.Milliseconds();
     AddToMap(left.cloud, left.T_begin, left.T_end);
@@ -124,7 +122,7 @@ class Odometry::Impl {
     while (window_.segments() > 0) Leave();
     ControlPose held = window_.front_pose();
     held.flags |= kFlagGap;
-    trajectory_.Append(held);
+    Settle(held, on_pose_ ? window_.front_covariance() : Matrix6d::Zero());
     window_.Start(gap.end_ns, held.T_world_body, Vector6d::Zero());
   }
 
@@ -174,13 +172,17 @@ class Odometry::Impl {
   Spell few_, unconverged_;
 };
 
-Odometry::Odometry(const OdometryOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
+    : impl_(std::make_unique<Impl>(options, make_solver)) {}
 Odometry::~Odometry() = default;
 
 void Odometry::AddScan(const LidarScan& scan) { impl_->AddScan(scan); }
 void Odometry::Finish() { impl_->Finish(); }
 void Odometry::OnWindow(std::function<void(const WindowStatistics&)> callback) {
   impl_->callback_ = std::move(callback);
+}
+void Odometry::OnPose(std::function<void(const ControlPose&, const Matrix6d&)> callback) {
+  impl_->on_pose_ = std::move(callback);
 }
 const Trajectory& Odometry::trajectory() const { return impl_->trajectory_; }
 const MapPyramid& Odometry::map() const { return impl_->map_; }

@@ -7,6 +7,7 @@
 #include "core/estimation/adaptive_threshold.h"
 #include "core/estimation/association.h"
 #include "core/estimation/solver_options.h"
+#include "core/estimation/window_solver.h"
 #include "core/estimation/window_statistics.h"
 #include "core/map/map_pyramid.h"
 #include "core/sensing/segmenter.h"
@@ -59,6 +60,9 @@ struct OdometryOptions {
   WindowOptions window;
   InitializationOptions initialization;
   LostOptions lost;
+  /// Multiplies the covariances that are handed out: the window takes the map for exact and the
+  /// errors of its points for independent. 1 hands out what the information says.
+  double covariance_scale = 1.0;
   /// 0 takes all cores. No result depends on it.
   int threads = 0;
 };
@@ -73,7 +77,8 @@ struct OdometryOptions {
 /// The world frame is the body frame at the first point.
 class Odometry {
  public:
-  explicit Odometry(const OdometryOptions& options);
+  explicit Odometry(const OdometryOptions& options,
+                    const WindowSolverFactory& make_solver = MakeWindowSolver);
   ~Odometry();
 
   /// Processes every window that this scan completes.
@@ -83,6 +88,11 @@ class Odometry {
 
   /// Called after every window.
   void OnWindow(std::function<void(const WindowStatistics&)> callback);
+
+  /// Called for every control pose when it leaves the window, with the covariance of its right
+  /// perturbation [rho; theta] (m², m rad, rad²) by the information of its last window, times
+  /// `covariance_scale`. Computed only if this is set.
+  void OnPose(std::function<void(const ControlPose&, const Matrix6d& covariance)> callback);
 
   /// The control poses that have left the window (all of them after Finish).
   const Trajectory& trajectory() const;

@@ -2,26 +2,17 @@
 #include "core/estimation/sliding_window.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "core/estimation/stopwatch.h"
+
 namespace trajlo {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double MillisecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 SlidingWindow::SlidingWindow(const OdometryOptions& options, const MapPyramid* map,
-                             ThreadPool* threads)
+                             ThreadPool* threads, const WindowSolverFactory& make_solver)
     : options_(options),
       map_(map),
       threads_(threads),
-      solver_(MakeWindowSolver(options.solver, threads)),
+      solver_(make_solver(options.solver, threads)),
       evaluator_(threads),
       threshold_(options.threshold) {}
 
@@ -57,16 +48,15 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
   bool finite = true;
   const std::vector<RegistrationNormalEquations>* registration_at_solution = nullptr;
   while (statistics.rounds < options_.solver.max_rounds && !converged && finite) {
-    const Clock::time_point associate_start = Clock::now();
+    Stopwatch watch;
     const auto counts = AssociateAll(statistics.rounds == 0);
     statistics.searched += counts.searched;
     statistics.inliers = counts.associated;
-    statistics.milliseconds_associate += MillisecondsSince(associate_start);
+    statistics.milliseconds_associate += watch.Milliseconds();
 
-    const Clock::time_point solve_start = Clock::now();
     BuildProblem();
     const SolveSummary summary = solver_->Solve(&problem_);
-    statistics.milliseconds_solve += MillisecondsSince(solve_start);
+    statistics.milliseconds_solve += watch.Milliseconds();
     ++statistics.rounds;
     statistics.iterations += summary.iterations;
     statistics.cost_registration = summary.cost.registration;
@@ -164,6 +154,12 @@ void SlidingWindow::BuildProblem() {
     term.sqrt_information /= ratio * ratio;
     problem_.smoothness.push_back(term);
   }
+}
+
+Matrix6d SlidingWindow::front_covariance() const {
+  WindowNormalEquations window;
+  AssembleWindow(problem_, problem_.poses, registration_, &window);
+  return FirstPoseCovariance(window);
 }
 
 SlidingWindow::Left SlidingWindow::Marginalize() {

@@ -14,7 +14,8 @@ namespace trajlo {
 class SlidingWindow {
  public:
   /// `map` and `threads` must outlive the window.
-  SlidingWindow(const OdometryOptions& options, const MapPyramid* map, ThreadPool* threads);
+  SlidingWindow(const OdometryOptions& options, const MapPyramid* map, ThreadPool* threads,
+                const WindowSolverFactory& make_solver);
 
   /// Begins with a single control pose, held by the anchor, moving at `velocity` ([rho; theta] per
   /// second, body frame).
@@ -29,6 +30,9 @@ class SlidingWindow {
   };
   /// Folds the oldest control pose into the prior of the next and removes its segment.
   Left Marginalize();
+
+  /// Of the oldest control pose, at the solution; see FirstPoseCovariance().
+  Matrix6d front_covariance() const;
 
   int segments() const { return static_cast<int>(segments_.size()); }
   ControlPose front_pose() const;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/estimation/window_problem.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "factors/square_root.h"
 
@@ -79,6 +81,18 @@ void AssembleWindow(const WindowProblem& problem, const std::vector<SE3>& poses,
   window->H.topLeftCorner<6, 6>() += J.transpose() * J;
   window->g.head<6>() += J.transpose() * r;
   window->cost.prior = 0.5 * r.squaredNorm();
+}
+
+Matrix6d FirstPoseCovariance(const WindowNormalEquations& window) {
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(window.H);
+  const Eigen::VectorXd pivots = ldlt.vectorD();
+  if (ldlt.info() != Eigen::Success || !(pivots.minCoeff() > 1e-14 * pivots.maxCoeff())) {
+    return Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  Eigen::MatrixXd first = Eigen::MatrixXd::Zero(window.H.rows(), 6);
+  first.topRows<6>().setIdentity();
+  const Matrix6d covariance = ldlt.solve(first).topRows<6>();
+  return 0.5 * (covariance + covariance.transpose());
 }
 
 MarginalizationPrior MarginalizeOldest(const WindowProblem& problem,

@@ -74,6 +74,11 @@ void AssembleWindow(const WindowProblem& problem, const std::vector<SE3>& poses,
                     const std::vector<RegistrationNormalEquations>& registration,
                     WindowNormalEquations* window);
 
+/// The covariance of the right perturbation [rho; theta] of the first pose, given all that the
+/// window knows: that block of the inverse of H. It takes the map for exact and the points' errors
+/// for independent, so it is optimistic. NaN where H is singular.
+Matrix6d FirstPoseCovariance(const WindowNormalEquations& window);
+
 /// Eliminates the first pose of the window at its current state (the state at which the window is
 /// left, so the linear term needs no correction): the prior of the next window.
 MarginalizationPrior MarginalizeOldest(const WindowProblem& problem,

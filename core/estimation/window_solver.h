@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct SolveSummary {
   /// The total cost at the start and after each step that was taken; Gauss-Newton does not compute
   /// that of its last one.
   std::vector<double> costs;
+  double evaluate_s = 0.0;      ///< Time spent on residuals and Jacobians.
   double linear_solve_s = 0.0;  ///< Time spent on the linear equations.
   /// The linearised registration at the solution, where the solver happens to have it (Ceres when
   /// it stops before its last iteration); valid until the next solve.
@@ -46,5 +48,9 @@ class WindowSolver {
 };
 
 std::unique_ptr<WindowSolver> MakeWindowSolver(const SolverOptions& options, ThreadPool* threads);
+
+/// Makes the solver of an odometry; for studies that put one of their own in place.
+using WindowSolverFactory =
+    std::function<std::unique_ptr<WindowSolver>(const SolverOptions&, ThreadPool*)>;
 
 }  // namespace trajlo

@@ -15,6 +15,8 @@ class ResultFolder {
   std::filesystem::path trajectory() const { return path_ / "trajectory.tum"; }
   std::filesystem::path map() const { return path_ / "map.ply"; }
   std::filesystem::path windows() const { return path_ / "windows.csv"; }
+  /// Only if it was asked for.
+  std::filesystem::path covariance() const { return path_ / "covariance.csv"; }
   std::filesystem::path config() const { return path_ / "config.yaml"; }
   std::filesystem::path summary() const { return path_ / "run.json"; }
 

@@ -1,38 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/window_csv.h"
 
-#include <charconv>
 #include <utility>
 #include <vector>
 
 #include "core/io/stamp_text.h"
+#include "core/report/csv_row.h"
 
 namespace trajlo {
 namespace {
 
-/// A line of the table: names and values are added together, so that they cannot get apart.
-class Row {
- public:
-  void Add(const char* name, const std::string& value) {
-    names_ += (names_.empty() ? "" : ",") + std::string(name);
-    values_ += (values_.empty() ? "" : ",") + value;
-  }
-  template <typename Number>
-  void Add(const char* name, Number value) {
-    char text[40];
-    const auto [end, error] = std::to_chars(text, text + sizeof(text), value);
-    Add(name, std::string(text, error == std::errc() ? end : text));
-  }
-
-  std::string Names() const { return names_ + "\n"; }
-  std::string Values() const { return values_ + "\n"; }
-
- private:
-  std::string names_, values_;
-};
-
-Row MakeRow(const WindowStatistics& w) {
-  Row row;
+CsvRow MakeRow(const WindowStatistics& w) {
+  CsvRow row;
   row.Add("index", w.index);
   row.Add("begin_s", FormatSeconds(w.begin_ns));
   row.Add("end_s", FormatSeconds(w.end_ns));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cstring>
 #include <limits>
 
@@ -41,7 +42,7 @@ struct RunResult {
 };
 
 RunResult RunOn(const SyntheticWorld& world, const OdometryOptions& options, int sweeps,
-          const std::function<void(int, LidarScan*)>& change = {}) {
+                const std::function<void(int, LidarScan*)>& change = {}) {
   RunResult run;
   run.odometry = std::make_unique<Odometry>(options);
   run.odometry->OnWindow([&](const WindowStatistics& w) { run.windows.push_back(w); });
@@ -127,6 +128,26 @@ TEST(Odometry, CeresAndGaussNewtonGiveTheSameTrajectory) {
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_LT((a[i].T_world_body.t - b[i].T_world_body.t).norm(), 1e-9) << i;
     }
+  }
+}
+
+TEST(Odometry, HandsOutACovarianceForEveryPose) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  OdometryOptions options = RoomOptions();
+  options.covariance_scale = 4.0;
+  Odometry odometry(options);
+  std::vector<Matrix6d> covariances;
+  odometry.OnPose([&](const ControlPose&, const Matrix6d& C) { covariances.push_back(C); });
+  for (int i = 0; i < 10; ++i) odometry.AddScan(world.Sweep(i));
+  odometry.Finish();
+  ASSERT_EQ(covariances.size(), odometry.trajectory().poses().size());
+  EXPECT_EQ(covariances.front(), Matrix6d::Zero());  // It defines the world.
+  for (std::size_t i = 1; i < covariances.size(); ++i) {
+    EXPECT_EQ(covariances[i], covariances[i].transpose());
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(covariances[i]);
+    EXPECT_GT(eigen.eigenvalues()[0], 0.0);
+    EXPECT_LT(std::sqrt(eigen.eigenvalues()[5]), 0.1);
   }
 }
 
@@ -252,8 +273,9 @@ TEST(Odometry, RunsInDiscreteModeOnMotionCorrectedScans) {
     const SE3 T_stamp = world.T_world_body(0.1 * i);
     for (LidarPoint& point : scan->points) {
       const double t = 1e-9 * static_cast<double>(point.t_ns - world.start_ns);
-      point.xyz_m = (T_stamp.Inverse() * (world.T_world_body(t) * point.xyz_m.cast<double>().eval()))
-                        .cast<float>();
+      point.xyz_m =
+          (T_stamp.Inverse() * (world.T_world_body(t) * point.xyz_m.cast<double>().eval()))
+              .cast<float>();
       point.t_ns = scan->stamp_ns;
     }
     scan->has_point_times = false;

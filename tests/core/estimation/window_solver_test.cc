@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/estimation/window_solver.h"
 
+#include <ceres/covariance.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <gtest/gtest.h>
@@ -137,6 +138,48 @@ TEST(WindowSolver, FirstEstimateJacobiansGiveTheSameStepInEveryAnalyticForm) {
   const auto expected = solve(RegistrationForm::kPrepared);
   EXPECT_LT(LargestDifference(solve(RegistrationForm::kCondensed), expected), 1e-10);
   EXPECT_LT(LargestDifference(solve(RegistrationForm::kPoint), expected), 1e-10);
+}
+
+TEST(WindowSolver, TheCovarianceOfTheFirstPoseIsThatOfCeres) {
+  TestWindow window(16);
+  ThreadPool threads(1);
+  window.problem.noise.kernel.kind = KernelKind::kNone;
+  window.problem.first_estimate_jacobians = false;
+  RegistrationEvaluator evaluator(&threads);
+  std::vector<RegistrationNormalEquations> registration;
+  evaluator.Evaluate(window.problem, window.problem.poses, true, &registration);
+  WindowNormalEquations normal;
+  AssembleWindow(window.problem, window.problem.poses, registration, &normal);
+  const Matrix6d ours = FirstPoseCovariance(normal);
+
+  SE3Manifold manifold;
+  ceres::Problem::Options options;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(options);
+  std::vector<SE3> poses = window.problem.poses;
+  for (SE3& pose : poses) problem.AddParameterBlock(pose.data(), 7, &manifold);
+  for (int k = 0; k < 4; ++k) {
+    problem.AddResidualBlock(new SegmentRegistrationCost(&window.storage[k], window.problem.noise),
+                             nullptr, poses[k].data(), poses[k + 1].data());
+    problem.AddResidualBlock(new SmoothnessCost(window.problem.smoothness[k]), nullptr,
+                             poses[k].data(), poses[k + 1].data());
+  }
+  problem.AddResidualBlock(new MarginalizationPriorCost(window.problem.prior, false), nullptr,
+                           poses[0].data());
+  ceres::Covariance covariance({});
+  const std::vector<std::pair<const double*, const double*>> wanted = {
+      {poses[0].data(), poses[0].data()}};
+  ASSERT_TRUE(covariance.Compute(wanted, &problem));
+  Eigen::Matrix<double, 6, 6, Eigen::RowMajor> theirs;
+  covariance.GetCovarianceBlockInTangentSpace(poses[0].data(), poses[0].data(), theirs.data());
+  EXPECT_LT((ours - theirs).norm(), 1e-9 * theirs.norm());
+}
+
+TEST(WindowSolver, AWindowThatIsNotHeldHasNoCovariance) {
+  WindowNormalEquations normal;
+  normal.H = Eigen::MatrixXd::Zero(12, 12);
+  normal.H.topLeftCorner<3, 3>().setIdentity();
+  EXPECT_TRUE(FirstPoseCovariance(normal).array().isNaN().all());
 }
 
 TEST(WindowSolver, ResultsAreTheSameBitsForAnyNumberOfThreads) {

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "apps/compare/compare_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/io/stamp_text.h"
+#include "core/report/csv_row.h"
+#include "core/report/versions.h"
+
+namespace trajlo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename... Values>
+std::string Format(const char* format, Values... values) {
+  char text[400];
+  std::snprintf(text, sizeof(text), format, values...);
+  return text;
+}
+
+double Ratio(double value, double to) { return to > 0.0 ? value / to : 0.0; }
+
+const FreeResult* FindFree(const CompareReport& report, const std::string& name) {
+  const auto found = std::find_if(report.free.begin(), report.free.end(),
+                                  [&](const FreeResult& result) { return result.name == name; });
+  return found == report.free.end() ? nullptr : &*found;
+}
+
+std::string LockstepTable(const CompareReport& report) {
+  std::string text = Format("lockstep: %d windows, each solved by all from the same start\n",
+                            report.lockstep.front().windows());
+  text += Format("  %-22s %7s %9s %9s %9s %9s %7s %10s %10s\n", "variant", "steps", "rejected",
+                 "eval ms", "linear ms", "total ms", "x first", "median m", "max m");
+  for (std::size_t i = 0; i < report.lockstep.size(); ++i) {
+    const LockstepTotals& t = report.lockstep[i];
+    text += Format("  %-22s %7.2f %9d %9.3f %9.3f %9.3f %7.2f %10.1e %10.1e\n",
+                   report.lockstep_variants[i].name.c_str(), t.StepsPerWindow(), t.rejected_steps(),
+                   t.EvaluateMs(), t.LinearSolveMs(), t.TotalMs(),
+                   Ratio(t.TotalMs(), report.lockstep.front().TotalMs()), t.MedianDistance_m(),
+                   t.MaxDistance_m());
+  }
+  return text;
+}
+
+std::string FreeTable(const CompareReport& report) {
+  std::string text = "free: each runs the whole recording by itself\n";
+  text += Format("  %-22s %9s %7s %9s %9s %11s  %-22s %9s\n", "variant", "cpu s", "x first",
+                 "solve ms", "rejected", "max from 1st", "parts at s", "ATE m");
+  for (const FreeResult& r : report.free) {
+    const double windows = std::max(1, static_cast<int>(r.windows.windows));
+    text += Format(
+        "  %-22s %9.2f %7.2f %9.3f %9d %11.1e  %-22s %9s%s\n", r.name.c_str(), r.cpu_s,
+        Ratio(r.cpu_s, report.free.front().cpu_s), r.windows.solve_ms / windows, r.rejected_steps,
+        r.max_from_first_m, r.parts_at_ns ? FormatSeconds(*r.parts_at_ns).c_str() : "never",
+        r.ate_rmse_m ? Format("%.4f", *r.ate_rmse_m).c_str() : "-", r.lost_at_ns ? "  lost" : "");
+  }
+  return text;
+}
+
+Json LockstepJson(const LockstepTotals& t) {
+  return {{"windows", t.windows()},
+          {"not_finite", t.not_finite()},
+          {"steps_per_window", t.StepsPerWindow()},
+          {"rejected_steps", t.rejected_steps()},
+          {"evaluate_ms", t.EvaluateMs()},
+          {"linear_solve_ms", t.LinearSolveMs()},
+          {"total_ms", t.TotalMs()},
+          {"cost_after", t.CostAfter()},
+          {"median_from_first_m", t.MedianDistance_m()},
+          {"max_from_first_m", t.MaxDistance_m()},
+          {"max_from_first_rad", t.MaxDistance_rad()}};
+}
+
+Json FreeJson(const FreeResult& r) {
+  return {{"trajectory", "free/" + r.name + "/trajectory.tum"},
+          {"poses", r.poses.size()},
+          {"cpu_s", r.cpu_s},
+          {"wall_s", r.wall_s},
+          {"windows", r.windows.windows},
+          {"rounds", r.windows.rounds},
+          {"rejected_steps", r.rejected_steps},
+          {"stages_ms",
+           {{"segment", r.windows.segment_ms},
+            {"associate", r.windows.associate_ms},
+            {"solve", r.windows.solve_ms},
+            {"marginalize", r.windows.marginalize_ms},
+            {"map", r.windows.map_ms}}},
+          {"lost_at_s", r.lost_at_ns ? Json(FormatSeconds(*r.lost_at_ns)) : Json(nullptr)},
+          {"max_from_first_m", r.max_from_first_m},
+          {"parts_at_s", r.parts_at_ns ? Json(FormatSeconds(*r.parts_at_ns)) : Json(nullptr)},
+          {"ate_rmse_m", r.ate_rmse_m ? Json(*r.ate_rmse_m) : Json(nullptr)}};
+}
+
+CsvRow NumbersOf(const std::string& name, const Json& values) {
+  CsvRow row;
+  row.Add("variant", name);
+  for (const auto& [key, value] : values.items()) {
+    if (value.is_number() || value.is_null()) {
+      row.Add(key.c_str(), value.is_null() ? "" : value.dump());
+    }
+  }
+  return row;
+}
+
+}  // namespace
+
+std::string CompareTables(const CompareReport& report) {
+  std::string text;
+  if (!report.lockstep.empty()) text += LockstepTable(report);
+  if (!report.not_in_lockstep.empty()) {
+    text += "  by whole runs only:";
+    for (const std::string& name : report.not_in_lockstep) text += " " + name;
+    text += "\n";
+  }
+  if (!report.free.empty()) text += FreeTable(report);
+  return text;
+}
+
+std::string CompareJson(const CompareRequest& request, const CompareReport& report) {
+  Json variants = Json::array();
+  for (const SolverVariant& variant : request.variants) {
+    Json json = {{"name", variant.name}, {"set", variant.settings}};
+    for (std::size_t i = 0; i < report.lockstep.size(); ++i) {
+      if (report.lockstep_variants[i].name != variant.name) continue;
+      json["lockstep"] = LockstepJson(report.lockstep[i]);
+    }
+    if (const FreeResult* result = FindFree(report, variant.name)) json["free"] = FreeJson(*result);
+    variants.push_back(std::move(json));
+  }
+  const Versions v = GetVersions();
+  const Json json = {{"command_line", request.command_line},
+                     {"input", request.inputs},
+                     {"truth", request.truth.empty() ? Json(nullptr) : Json(request.truth)},
+                     {"lockstep_options",
+                      {{"every", request.lockstep_options.every},
+                       {"max_iterations", request.lockstep_options.max_iterations},
+                       {"step_tolerance_m", request.lockstep_options.step_tolerance_m},
+                       {"step_tolerance_rad", request.lockstep_options.step_tolerance_rad}}},
+                     {"versions",
+                      {{"trajlo", v.trajlo},
+                       {"git", v.git},
+                       {"eigen", v.eigen},
+                       {"ceres", v.ceres},
+                       {"compiler", v.compiler}}},
+                     {"variants", variants}};
+  return json.dump(2) + "\n";
+}
+
+std::string LockstepSummaryCsv(const CompareReport& report) {
+  std::string text;
+  for (std::size_t i = 0; i < report.lockstep.size(); ++i) {
+    const CsvRow row =
+        NumbersOf(report.lockstep_variants[i].name, LockstepJson(report.lockstep[i]));
+    text += (i == 0 ? row.Names() : "") + row.Values();
+  }
+  return text;
+}
+
+std::string FreeSummaryCsv(const CompareReport& report) {
+  std::string text;
+  for (std::size_t i = 0; i < report.free.size(); ++i) {
+    const CsvRow row = NumbersOf(report.free[i].name, FreeJson(report.free[i]));
+    text += (i == 0 ? row.Names() : "") + row.Values();
+  }
+  return text;
+}
+
+}  // namespace trajlo

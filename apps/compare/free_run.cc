@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "apps/compare/free_run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/estimation/odometry.h"
+#include "core/estimation/stopwatch.h"
+#include "core/io/recording/open_recording.h"
+#include "core/io/trajectory_writer.h"
+#include "core/report/progress_bar.h"
+#include "core/report/resource_usage.h"
+#include "core/report/window_csv.h"
+
+namespace trajlo {
+namespace {
+
+/// Two trajectories part where they are farther apart.
+constexpr double kSame_m = 1e-6;
+
+}  // namespace
+
+FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant) {
+  FreeResult result;
+  result.name = variant.name;
+  const std::filesystem::path folder =
+      std::filesystem::path(request.output) / "free" / variant.name;
+  std::filesystem::create_directories(folder);
+  WindowCsvWriter windows(folder / "windows.csv", IfExists::kReplace);
+
+  const double cpu_begin_s = ProcessCpuSeconds();
+  Stopwatch watch;
+  Odometry odometry(variant.odometry);
+  double inlier_share = 0.0;
+  odometry.OnWindow([&](const WindowStatistics& window) {
+    windows.Append(window);
+    result.windows.Add(window);
+    result.rejected_steps += window.rejected_steps;
+    inlier_share = window.InlierShare();
+  });
+  const auto recording = OpenRecording(request.inputs, request.config.input);
+  ProgressBar bar(stderr, request.quiet);
+  std::int64_t first_ns = 0;
+  LidarScan scan;
+  for (std::size_t count = 0; recording->Next(&scan); ++count) {
+    if (count == 0) first_ns = scan.stamp_ns;
+    odometry.AddScan(scan);
+    result.wall_s += watch.Seconds();
+    bar.Update({count + 1, recording->size(), 1e-9 * static_cast<double>(scan.stamp_ns - first_ns),
+                result.wall_s, inlier_share});
+  }
+  odometry.Finish();
+  result.wall_s += watch.Seconds();
+  result.cpu_s = ProcessCpuSeconds() - cpu_begin_s;
+  result.lost_at_ns = odometry.lost_at_ns();
+
+  TumWriter trajectory(folder / "trajectory.tum", IfExists::kReplace);
+  for (const ControlPose& pose : odometry.trajectory().poses()) {
+    trajectory.Append(pose.t_ns, pose.T_world_body);
+    result.poses.push_back({pose.t_ns, pose.T_world_body});
+  }
+  trajectory.Close();
+  windows.Close();
+  return result;
+}
+
+void CompareWithFirst(const FreeResult& first, FreeResult* result) {
+  auto other = first.poses.begin();
+  for (const StampedPose& pose : result->poses) {
+    while (other != first.poses.end() && other->t_ns < pose.t_ns) ++other;
+    if (other == first.poses.end()) return;
+    if (other->t_ns != pose.t_ns) continue;  // Another segment length has poses at other times.
+    const double distance_m = (other->T_world_body.t - pose.T_world_body.t).norm();
+    result->max_from_first_m = std::max(result->max_from_first_m, distance_m);
+    if (distance_m > kSame_m && !result->parts_at_ns) result->parts_at_ns = pose.t_ns;
+  }
+}
+
+}  // namespace trajlo

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/compare/compare_request.h"
+#include "core/io/trajectory_reader.h"
+#include "core/report/window_totals.h"
+
+namespace trajlo {
+
+/// What one variant made of the whole recording by itself.
+struct FreeResult {
+  std::string name;
+  std::vector<StampedPose> poses;
+  WindowTotals windows;
+  int rejected_steps = 0;
+  double cpu_s = 0.0;  ///< Of the whole process while it ran: reading and estimating.
+  double wall_s = 0.0;
+  std::optional<std::int64_t> lost_at_ns;
+  /// Against the first variant: the largest distance of two poses of the same time, and the time
+  /// of the first pair that is farther apart than a micrometre.
+  double max_from_first_m = 0.0;
+  std::optional<std::int64_t> parts_at_ns;
+  /// Against the truth: position, after SE(3) alignment.
+  std::optional<double> ate_rmse_m;
+};
+
+/// Runs the variant on the recording and writes `free/<name>/trajectory.tum` and `windows.csv`.
+/// Throws InputError, OutputError.
+FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant);
+
+/// Fills in what compares a result with the first one.
+void CompareWithFirst(const FreeResult& first, FreeResult* result);
+
+}  // namespace trajlo

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/compare/compare_request.h"
+#include "core/comparison/lockstep_totals.h"
+
+namespace trajlo {
+
+/// Runs the recording once, all variants solving the same windows; writes lockstep.csv and
+/// iterations.csv. `variants` are those that can be compared by single windows; the result is in
+/// their order. Throws InputError, OutputError.
+std::vector<LockstepTotals> RunLockstep(const CompareRequest& request,
+                                        const std::vector<SolverVariant>& variants);
+
+}  // namespace trajlo

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "apps/evaluate/evaluate_job.h"
+
+#include <cstdio>
+#include <exception>
+
+#include "apps/evaluate/evaluation_table.h"
+#include "apps/evaluate/labels.h"
+#include "apps/evaluate/output_folder.h"
+#include "core/evaluation/evaluation_error.h"
+#include "core/io/errors.h"
+#include "core/io/scan_stamps.h"
+#include "core/report/draw_script.h"
+
+namespace trajlo {
+namespace {
+
+constexpr std::size_t kPrintedWarnings = 10;
+
+struct NamedPoses {
+  TimedPoses poses;
+  TrajectorySummary summary;
+};
+
+NamedPoses Read(const std::filesystem::path& path, TrajectoryFormat format,
+                const EvaluateRequest& request, std::vector<std::string>* warnings) {
+  TrajectoryFile file = ReadTrajectory(path, format, warnings);
+  NamedPoses read;
+  read.summary.format = TrajectoryFormatName(file.format);
+  if (file.t_ns.empty() && !request.times.empty()) {
+    file.t_ns = ReadStampsFile(request.times);
+    if (file.t_ns.size() != file.T_world_body.size()) {
+      throw InputError(request.times,
+                       "has " + std::to_string(file.t_ns.size()) + " stamps, and " + path.string() +
+                           " " + std::to_string(file.T_world_body.size()) + " poses",
+                       "There must be one stamp for each line.");
+    }
+  }
+  read.poses = OrderByTime(file, path.string(), request.repeated_stamps, warnings);
+  read.summary.file = path.string();
+  read.summary.poses = read.poses.size();
+  read.summary.path_length_m = PathLength(read.poses.T_world_body);
+  read.summary.has_stamps = read.poses.HasStamps();
+  if (read.summary.has_stamps) {
+    read.summary.begin_ns = read.poses.t_ns.front();
+    read.summary.end_ns = read.poses.t_ns.back();
+  }
+  return read;
+}
+
+EstimateReport EvaluateOne(std::size_t index, const EvaluateRequest& request,
+                           const TimedPoses& truth, std::vector<std::string>* warnings) {
+  EstimateReport report;
+  report.name = request.names[index];
+  const std::filesystem::path& path = request.estimates[index];
+  report.trajectory.file = path.string();
+  try {
+    const NamedPoses estimate = Read(path, request.estimate_format, request, warnings);
+    report.trajectory = estimate.summary;
+    report.evaluation = Evaluate(estimate.poses, truth, request.options);
+    for (const std::string& warning : report.evaluation->warnings) {
+      warnings->push_back(path.string() + ": " + warning);
+    }
+  } catch (const InputError& error) {
+    report.failure = error.what();
+  } catch (const EvaluationError& error) {
+    report.failure = path.string() + ": " + error.what();
+  }
+  return report;
+}
+
+void Print(const std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < warnings.size() && i < kPrintedWarnings; ++i) {
+    std::fprintf(stderr, "warning: %s\n", warnings[i].c_str());
+  }
+  if (warnings.size() > kPrintedWarnings) {
+    std::fprintf(stderr, "warning: %zu more\n", warnings.size() - kPrintedWarnings);
+  }
+}
+
+ExitCode Run(const EvaluateRequest& request) {
+  const bool writes = !request.output.empty();
+  if (writes) CheckEvaluationFolder(request.output, request.overwrite);
+  EvaluationReport report;
+  const NamedPoses truth = Read(request.truth, request.truth_format, request, &report.warnings);
+  report.truth = truth.summary;
+  report.truth_has_orientation = UsesOrientation(truth.poses, request.options.truth_orientation);
+  if (!report.truth_has_orientation &&
+      request.options.truth_orientation == TruthOrientation::kAuto) {
+    report.warnings.push_back(
+        request.truth.string() +
+        ": all rotations are exactly the identity, so they are taken as placeholders and no "
+        "rotation error is computed (--truth_orientation=use computes it)");
+  }
+  const std::vector<std::string> file_names = FileNames(request.names);
+  std::size_t failures = 0;
+  for (std::size_t i = 0; i < request.estimates.size(); ++i) {
+    report.estimates.push_back(EvaluateOne(i, request, truth.poses, &report.warnings));
+    report.estimates.back().errors_csv = "errors_" + file_names[i] + ".csv";
+    if (!report.estimates.back().evaluation) ++failures;
+  }
+  Print(report.warnings);
+  for (const EstimateReport& estimate : report.estimates) {
+    if (estimate.evaluation) continue;
+    std::fprintf(stderr, "trajlo_evaluate: %s\n", estimate.failure.c_str());
+  }
+  if (failures == report.estimates.size()) return ExitCode::kInputUnreadable;
+
+  if (!request.quiet) std::fputs(EvaluationTable(request, report).c_str(), stdout);
+  std::fflush(stdout);
+  if (writes) {
+    WriteEvaluation(request, report);
+    const std::string problem =
+        request.draw ? RunDrawScript("draw_evaluation.py", request.output) : "";
+    if (!problem.empty()) std::fprintf(stderr, "warning: no figures: %s\n", problem.c_str());
+    if (!request.quiet) std::printf("result      %s\n", request.output.c_str());
+  }
+  return failures > 0 ? ExitCode::kPartialInput : ExitCode::kOk;
+}
+
+}  // namespace
+
+ExitCode EvaluateJob(const EvaluateRequest& request) {
+  try {
+    return Run(request);
+  } catch (const OutputError& error) {
+    std::fprintf(stderr, "trajlo_evaluate: %s\n", error.what());
+    return ExitCode::kOutputNotWritable;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "trajlo_evaluate: %s\n", error.what());
+    return ExitCode::kInputUnreadable;
+  }
+}
+
+}  // namespace trajlo

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/evaluate/evaluation_report.h"
+
+namespace trajlo {
+
+/// A number that is known of every estimate, as tables show it.
+struct MetricColumn {
+  std::string key;    ///< In evaluation.csv, with the unit: "ate_translation_rmse_m".
+  std::string title;  ///< In tables for people: "ATE [m]".
+  int decimals = 3;
+  /// Among those that every table shows; the others are in evaluation.csv only.
+  bool main = false;
+  /// Nothing if it was not computed.
+  std::function<std::optional<double>(const Evaluation&)> value;
+};
+
+/// Absolute errors, relative errors of the pieces asked for, and KITTI's errors.
+std::vector<MetricColumn> MetricColumns(const std::vector<RelativeErrorOptions>& pieces);
+
+/// The main columns that at least one estimate has a value in.
+std::vector<MetricColumn> MainColumns(const EvaluationReport& report,
+                                      const std::vector<RelativeErrorOptions>& pieces);
+
+/// The smallest value of a column among the estimates that did not diverge, as it is printed;
+/// empty if there are fewer than two to choose from.
+std::string BestValue(const EvaluationReport& report, const MetricColumn& column);
+
+/// "0.023"; empty for nothing.
+std::string FormatValue(const std::optional<double>& value, int decimals);
+
+/// "1 m"
+std::string PieceName(const RelativeErrorOptions& piece);
+
+}  // namespace trajlo

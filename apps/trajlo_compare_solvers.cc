@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// The same windows, and the same recording, by many solvers. See --help.
+#include <gflags/gflags.h>
+
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "apps/compare/compare_job.h"
+#include "core/io/recording/open_recording.h"
+#include "core/report/versions.h"
+
+DEFINE_string(input, "", "the recording, as for trajlo_run");
+DEFINE_string(output, "", "the folder to write");
+DEFINE_string(config, "", "YAML files, separated by commas; later ones override earlier ones");
+DEFINE_string(set, "", "options for all variants: key=value, separated by commas");
+DEFINE_string(variants, "", "YAML file with the variants; empty takes config/comparisons/solvers.yaml");
+DEFINE_string(only, "",
+              "names of the variants to take, separated by commas; the first is the yardstick");
+DEFINE_string(mode, "both", "lockstep, free or both");
+DEFINE_int32(every, 5, "lockstep: compare every so many windows");
+DEFINE_string(truth, "", "ground truth of the trajectory, for errors of the free runs");
+DEFINE_int32(threads, 1, "for all variants; 1 makes their times comparable");
+DEFINE_bool(overwrite, false, "replace an earlier result in the output folder");
+DEFINE_bool(report, true, "draw figures and a page into the output folder");
+DEFINE_bool(quiet, false, "print warnings and errors only");
+
+namespace {
+
+using trajlo::ConfigError;
+using trajlo::ExitCode;
+
+constexpr char kHelp[] = R"(The same windows, and the same recording, by many solvers.
+
+  trajlo_compare_solvers --input=recording --output=comparison
+      lockstep: in every fifth window all variants start from the same poses, associations and
+      prior; free: each runs the whole recording by itself. Writes
+        comparison/comparison.json       everything, with settings and versions
+        comparison/lockstep.csv          a line per window and variant: costs by factor, steps,
+                                         distance of the solutions, times by stage
+        comparison/iterations.csv        the cost after every step
+        comparison/lockstep_summary.csv, free_summary.csv   a line per variant
+        comparison/free/VARIANT/         trajectory.tum and windows.csv of each run
+        comparison/report.html           the figures in one page (also as PNG and SVG)
+  trajlo_compare_solvers --input=recording --output=comparison --truth=truth.tum
+      with the errors of the free runs
+  trajlo_compare_solvers --input=recording --output=two --only=gauss_newton,ceres --every=1
+  trajlo_compare_solvers --input=recording --output=mine --variants=my_variants.yaml --mode=free
+      my_variants.yaml:
+        variants:
+          - {name: paper, set: "map.levels=1"}
+          - {name: wide, set: "map.levels=1,weights.max_kernel_m=1.0"}
+
+--input, --config and --set are those of trajlo_run (trajlo_run --show_config lists all keys).
+
+Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 5 output not writable.
+)";
+
+std::vector<std::string> SplitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) {
+    if (!part.empty()) parts.push_back(part);
+  }
+  return parts;
+}
+
+/// Those that `only` names, in its order; all if it is empty.
+std::vector<trajlo::SolverVariant> Choose(const std::vector<trajlo::SolverVariant>& variants,
+                                          const std::vector<std::string>& only) {
+  if (only.empty()) return variants;
+  std::vector<trajlo::SolverVariant> chosen;
+  for (const std::string& name : only) {
+    std::string names;
+    for (const auto& variant : variants) {
+      if (variant.name == name) chosen.push_back(variant);
+      names += " " + variant.name;
+    }
+    if (chosen.empty() || chosen.back().name != name) {
+      throw ConfigError("--only: no variant '" + name + "'; there are:" + names);
+    }
+  }
+  return chosen;
+}
+
+trajlo::CompareRequest RequestFromFlags() {
+  trajlo::CompareRequest request;
+  request.inputs = trajlo::InputPaths(FLAGS_input);
+  if (request.inputs.empty()) throw ConfigError("--input is missing");
+  if (FLAGS_output.empty()) throw ConfigError("--output is missing");
+  for (const std::string& file : SplitAtCommas(FLAGS_config)) {
+    trajlo::LoadConfigFile(file, &request.config);
+  }
+  trajlo::ApplyOverrides(FLAGS_set, &request.config);
+  trajlo::ApplyOverrides("threads=" + std::to_string(FLAGS_threads), &request.config, "--threads");
+  trajlo::CheckConfig(request.config);
+  const std::string variants = FLAGS_variants.empty() ? TRAJLO_SOLVERS_YAML : FLAGS_variants;
+  request.variants =
+      Choose(trajlo::LoadVariants(variants, request.config), SplitAtCommas(FLAGS_only));
+  if (FLAGS_mode != "both" && FLAGS_mode != "lockstep" && FLAGS_mode != "free") {
+    throw ConfigError("--mode: must be lockstep, free or both, found '" + FLAGS_mode + "'");
+  }
+  if (FLAGS_every < 1) throw ConfigError("--every: must be at least 1");
+  request.lockstep = FLAGS_mode != "free";
+  request.free = FLAGS_mode != "lockstep";
+  request.lockstep_options.every = FLAGS_every;
+  request.output = FLAGS_output;
+  request.truth = FLAGS_truth;
+  request.overwrite = FLAGS_overwrite;
+  request.quiet = FLAGS_quiet;
+  request.draw = FLAGS_report;
+  return request;
+}
+
+bool WantsHelp(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    for (const char* flag : {"--help", "-help", "-h"}) {
+      if (std::strcmp(argv[i], flag) == 0) return true;
+    }
+  }
+  return false;
+}
+
+ExitCode Main(int argc, char** argv) {
+  // Ahead of gflags, whose own help lists the flags of every library that is linked.
+  if (WantsHelp(argc, argv)) {
+    std::fputs(kHelp, stdout);
+    return ExitCode::kOk;
+  }
+  const std::vector<std::string> command_line(argv, argv + argc);
+  // Ceres reports each failed step as a warning; lockstep.csv counts them.
+  gflags::SetCommandLineOptionWithMode("minloglevel", "2", gflags::SET_FLAGS_DEFAULT);
+  gflags::SetCommandLineOptionWithMode("logtostderr", "true", gflags::SET_FLAGS_DEFAULT);
+  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
+  gflags::HandleCommandLineHelpFlags();
+  try {
+    if (argc > 1) throw ConfigError("unexpected argument '" + std::string(argv[1]) + "'");
+    trajlo::CompareRequest request = RequestFromFlags();
+    request.command_line = command_line;
+    return trajlo::RunComparison(request);
+  } catch (const ConfigError& error) {
+    std::fprintf(stderr, "trajlo_compare_solvers: %s\n(--help shows examples)\n", error.what());
+    return ExitCode::kUsage;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return static_cast<int>(Main(argc, argv)); }

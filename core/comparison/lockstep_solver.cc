@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "core/comparison/lockstep_solver.h"
+
+#include <utility>
+
+#include "core/estimation/stopwatch.h"
+
+namespace trajlo {
+namespace {
+
+WindowCost CostOf(const WindowProblem& problem, RegistrationEvaluator* evaluator) {
+  std::vector<RegistrationNormalEquations> registration;
+  evaluator->Evaluate(problem, problem.poses, false, &registration);
+  WindowCost cost = CostWithoutRegistration(problem);
+  for (const auto& segment : registration) cost.registration += segment.cost;
+  return cost;
+}
+
+}  // namespace
+
+LockstepSolver::LockstepSolver(const std::vector<SolverVariant>& variants,
+                               const LockstepOptions& options,
+                               std::unique_ptr<WindowSolver> leading, ThreadPool* threads,
+                               OnRecord on_record)
+    : variants_(variants),
+      options_(options),
+      leading_(std::move(leading)),
+      evaluator_(threads),
+      on_record_(std::move(on_record)) {
+  for (const SolverVariant& variant : variants) {
+    SolverOptions solver = variant.odometry.solver;
+    solver.iterations_per_round = options.max_iterations;
+    solver.step_tolerance_m = options.step_tolerance_m;
+    solver.step_tolerance_rad = options.step_tolerance_rad;
+    solvers_.push_back(MakeWindowSolver(solver, threads));
+  }
+}
+
+SolveSummary LockstepSolver::Solve(WindowProblem* problem) {
+  if (is_first_round_ && window_ % options_.every == 0) Compare(*problem);
+  is_first_round_ = false;
+  return leading_->Solve(problem);
+}
+
+void LockstepSolver::FinishWindow() {
+  ++window_;
+  is_first_round_ = true;
+}
+
+void LockstepSolver::Compare(const WindowProblem& problem) {
+  std::vector<SE3> first_solution;
+  LockstepRecord record;
+  record.window = window_;
+  for (const auto* points : problem.points) record.points += static_cast<int>(points->size());
+  record.cost_before = CostOf(problem, &evaluator_);
+  for (record.variant = 0; record.variant < variants_.size(); ++record.variant) {
+    const OdometryOptions& odometry = variants_[record.variant].odometry;
+    WindowProblem own = problem;
+    own.noise.kernel.kind = odometry.weights.kernel;
+    own.first_estimate_jacobians = odometry.marginalization.first_estimate_jacobians;
+    Stopwatch watch;
+    record.summary = solvers_[record.variant]->Solve(&own);
+    record.total_s = watch.Seconds();
+    if (record.variant == 0) first_solution = own.poses;
+    record.from_first = MeasureStep(first_solution, own.poses);
+    own.noise = problem.noise;
+    record.cost_after = CostOf(own, &evaluator_);
+    on_record_(record);
+  }
+}
+
+}  // namespace trajlo

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/comparison/solver_variant.h"
+#include "core/estimation/window_solver.h"
+
+namespace trajlo {
+
+/// What one variant made of one window.
+struct LockstepRecord {
+  int window = 0;
+  std::size_t variant = 0;  ///< Index into the list of variants.
+  int points = 0;
+  /// In the window's own weights and kernel, whatever the variant's are.
+  WindowCost cost_before, cost_after;
+  /// Distance of the solution from that of the first variant, the largest over the control poses.
+  StepSize from_first;
+  double total_s = 0.0;
+  SolveSummary summary;
+};
+
+struct LockstepOptions {
+  /// Each window is solved until the steps are this small, so that solutions can be compared.
+  int max_iterations = 30;
+  double step_tolerance_m = 1e-9;
+  double step_tolerance_rad = 1e-10;
+  /// Every so many windows are compared.
+  int every = 1;
+};
+
+/// Solves windows like the solver that it stands for, and lets all variants solve the same windows
+/// on the side: from the same poses, with the same associations and the same prior (those of the
+/// window's first round).
+class LockstepSolver final : public WindowSolver {
+ public:
+  using OnRecord = std::function<void(const LockstepRecord&)>;
+
+  /// `variants` must outlive it.
+  LockstepSolver(const std::vector<SolverVariant>& variants, const LockstepOptions& options,
+                 std::unique_ptr<WindowSolver> leading, ThreadPool* threads, OnRecord on_record);
+
+  SolveSummary Solve(WindowProblem* problem) override;
+  /// The next call of Solve belongs to another window.
+  void FinishWindow();
+
+ private:
+  void Compare(const WindowProblem& problem);
+
+  const std::vector<SolverVariant>& variants_;
+  LockstepOptions options_;
+  std::unique_ptr<WindowSolver> leading_;
+  std::vector<std::unique_ptr<WindowSolver>> solvers_;
+  RegistrationEvaluator evaluator_;
+  OnRecord on_record_;
+  int window_ = 0;
+  bool is_first_round_ = true;
+};
+
+}  // namespace trajlo

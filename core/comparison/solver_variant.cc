@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "core/comparison/solver_variant.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+namespace trajlo {
+namespace {
+
+std::string Where(const std::filesystem::path& path, const YAML::Node& node) {
+  const YAML::Mark mark = node.Mark();
+  return mark.is_null() ? path.string() : path.string() + ":" + std::to_string(mark.line + 1);
+}
+
+}  // namespace
+
+std::vector<SolverVariant> LoadVariants(const std::filesystem::path& path, const RunConfig& base) {
+  YAML::Node root;
+  try {
+    root = YAML::LoadFile(path.string());
+  } catch (const YAML::BadFile&) {
+    throw ConfigError(path.string(), "there is no such file, or it cannot be read");
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(path.string() + ":" + std::to_string(error.mark.line + 1),
+                      "this is not valid YAML: " + error.msg);
+  }
+  const YAML::Node list = root.IsMap() ? root["variants"] : YAML::Node();
+  if (!list || !list.IsSequence() || list.size() == 0) {
+    throw ConfigError(path.string(),
+                      "expected 'variants:' with a list of {name: ..., set: \"key=value,...\"}");
+  }
+  std::vector<SolverVariant> variants;
+  for (const YAML::Node& item : list) {
+    if (!item.IsMap() || !item["name"] || !item["name"].IsScalar() ||
+        (item["set"] && !item["set"].IsScalar())) {
+      throw ConfigError(Where(path, item), "a variant is {name: ..., set: \"key=value,...\"}");
+    }
+    SolverVariant variant;
+    variant.name = item["name"].as<std::string>();
+    if (item["set"]) variant.settings = item["set"].as<std::string>();
+    const bool is_file_name = !variant.name.empty() && variant.name[0] != '.' &&
+                              variant.name.find('/') == std::string::npos;
+    const bool is_new = std::none_of(variants.begin(), variants.end(),
+                                     [&](const auto& other) { return other.name == variant.name; });
+    if (!is_file_name || !is_new) {
+      throw ConfigError(Where(path, item),
+                        "the name '" + variant.name + "' " +
+                            (is_new ? "cannot be that of a folder" : "is there twice"));
+    }
+    RunConfig config = base;
+    ApplyOverrides(variant.settings, &config, Where(path, item));
+    CheckConfig(config);
+    variant.odometry = config.odometry;
+    variants.push_back(std::move(variant));
+  }
+  return variants;
+}
+
+bool IsAboutOneWindow(const SolverVariant& variant, const RunConfig& base) {
+  RunConfig same = base;
+  same.odometry = variant.odometry;
+  same.odometry.solver = base.odometry.solver;
+  same.odometry.weights.kernel = base.odometry.weights.kernel;
+  same.odometry.marginalization.first_estimate_jacobians =
+      base.odometry.marginalization.first_estimate_jacobians;
+  return DumpConfig(same) == DumpConfig(base);
+}
+
+}  // namespace trajlo

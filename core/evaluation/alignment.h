@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/evaluation/association.h"
+
+namespace trajlo {
+
+/// What brings the estimate's world frame onto the truth's.
+///   kNone    nothing
+///   kOrigin  the first pose of the estimate onto the first pose of the truth, attitude included
+///   kSe3     rotation and translation of least squares over the positions
+///   kSim3    the same with a scale
+///   kScale   the scale of kSim3 alone
+/// S. Umeyama, Least-squares estimation of transformation parameters between two point patterns,
+/// 1991.
+enum class AlignmentKind { kNone, kOrigin, kSe3, kSim3, kScale };
+
+struct AlignmentOptions {
+  AlignmentKind kind = AlignmentKind::kSe3;
+  /// Positive: it is computed from this many pairs at the beginning, and applied to all.
+  std::size_t first_pairs = 0;
+  /// Positive: it is computed from the pairs of so many seconds at the beginning.
+  double first_seconds = 0.0;
+};
+
+/// Similarity p_truth_world = scale * R * p_estimate_world + t.
+struct Alignment {
+  AlignmentKind kind = AlignmentKind::kNone;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();
+  double scale = 1.0;
+  std::size_t pairs_used = 0;
+  /// Not empty: why it should not be trusted much.
+  std::string warning;
+
+  /// The scale applies to positions only, so the rotation stays one.
+  Eigen::Affine3d operator*(const Eigen::Affine3d& pose) const;
+};
+
+/// Least squares of the estimate's positions onto the truth's. Throws EvaluationError if fewer
+/// than two singular values of their covariance differ from zero: a single place, or a straight
+/// line, leaves the rotation undetermined. Positions so far out that their squares are not finite
+/// (a run that exploded) are left where they are, with a warning.
+Alignment Umeyama(const std::vector<PosePair>& pairs, bool with_scale);
+
+/// Throws EvaluationError if the alignment is undetermined.
+Alignment ComputeAlignment(const std::vector<PosePair>& pairs, const AlignmentOptions& options);
+
+}  // namespace trajlo

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "core/evaluation/evaluation.h"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/evaluation/absolute_error.h"
+#include "core/evaluation/completeness.h"
+#include "core/evaluation/evaluation_error.h"
+#include "core/evaluation/format_text.h"
+#include "core/evaluation/stamp_search.h"
+
+namespace trajlo {
+namespace {
+
+PoseErrorStatistics Statistics(const PoseErrors& errors) {
+  return {ComputeStatistics(errors.translation_m), ComputeStatistics(errors.rotation_deg),
+          ComputeStatistics(errors.rotation_part), ComputeStatistics(errors.full),
+          ComputeStatistics(errors.point_distance_m)};
+}
+
+RelativeEvaluation EvaluateRelative(const Evaluation& evaluation,
+                                    const std::vector<std::int64_t>& stamps,
+                                    const RelativeErrorOptions& options) {
+  RelativeEvaluation result;
+  result.options = options;
+  if (options.unit == DeltaUnit::kSeconds && stamps.empty()) {
+    result.reason = "there are no stamps";
+    return result;
+  }
+  const IndexPairs pieces = SelectPieces(evaluation.pairs, stamps, options);
+  result.pieces = pieces.size();
+  result.statistics =
+      Statistics(RelativeErrors(evaluation.pairs, pieces, evaluation.has_orientation));
+  if (pieces.empty()) {
+    result.reason =
+        FormatText("no piece of %g %s was found", options.delta, DeltaUnitName(options.unit));
+  }
+  return result;
+}
+
+void EvaluateKitti(const std::vector<PosePair>& pairs, Evaluation* evaluation) {
+  if (!evaluation->has_orientation) {
+    evaluation->kitti_reason = "the ground truth has no orientation";
+    return;
+  }
+  KittiErrors errors = ComputeKittiErrors(pairs);
+  if (errors.segments.empty()) {
+    evaluation->kitti_reason = FormatText("the path of %.1f m is too short: pieces begin at %g m",
+                                          evaluation->path_length_m, kKittiLengths_m.front());
+    return;
+  }
+  if (!std::isfinite(errors.translation_percent) || !std::isfinite(errors.rotation_deg_per_m)) {
+    evaluation->kitti_reason = "they are not finite";
+    return;
+  }
+  evaluation->kitti = std::move(errors);
+}
+
+double FindTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
+                      const EvaluationOptions& options, Evaluation* evaluation) {
+  if (!options.estimate_time_offset) return options.time_offset_s;
+  TimeOffsetOptions search;
+  search.around_s = options.time_offset_s;
+  search.reach_s = options.time_offset_reach_s;
+  search.max_gap_s = options.association.max_gap_s;
+  search.with_scale = options.alignment.kind == AlignmentKind::kSim3;
+  const TimeOffset found =
+      EstimateTimeOffset(InFrame(estimate, options.T_body_truth), truth, search);
+  if (!found.warning.empty()) evaluation->warnings.push_back(found.warning);
+  evaluation->estimated_time_offset = found;
+  return found.offset_s;
+}
+
+/// The share of the poses that occur in a pair.
+double PairedShare(const std::vector<PosePair>& pairs, const TimedPoses& counted) {
+  std::set<std::size_t> indices;
+  for (const PosePair& pair : pairs) indices.insert(pair.index);
+  return static_cast<double>(indices.size()) / static_cast<double>(counted.size());
+}
+
+}  // namespace
+
+bool UsesOrientation(const TimedPoses& truth, TruthOrientation orientation) {
+  return orientation == TruthOrientation::kUse ||
+         (orientation == TruthOrientation::kAuto && HasOrientation(truth));
+}
+
+Evaluation Evaluate(const TimedPoses& estimate, const TimedPoses& truth,
+                    const EvaluationOptions& options) {
+  Evaluation evaluation;
+  evaluation.has_orientation = UsesOrientation(truth, options.truth_orientation);
+  if (!evaluation.has_orientation && options.alignment.kind == AlignmentKind::kOrigin) {
+    throw EvaluationError("the first pose cannot be aligned: the ground truth has no orientation");
+  }
+  const bool timed = estimate.HasStamps() && truth.HasStamps();
+  if (!timed && options.alignment.first_seconds > 0.0) {
+    throw EvaluationError("without stamps the first seconds cannot be told");
+  }
+  evaluation.time_offset_s = FindTimeOffset(estimate, truth, options, &evaluation);
+  const std::int64_t offset_ns = Nanoseconds(evaluation.time_offset_s);
+  evaluation.pairs = Associate(estimate, truth, offset_ns, options.association);
+  // After the association: between two poses the body moves, and the lever arm turns with it.
+  for (PosePair& pair : evaluation.pairs) pair.estimate = pair.estimate * options.T_body_truth;
+
+  std::vector<Eigen::Affine3d> truth_of_pairs;
+  for (const PosePair& pair : evaluation.pairs) truth_of_pairs.push_back(pair.truth);
+  evaluation.path_length_m = PathLength(truth_of_pairs);
+  if (timed) {
+    evaluation.duration_s = Seconds(evaluation.pairs.back().t_ns - evaluation.pairs.front().t_ns);
+  }
+  evaluation.completeness = Completeness(estimate, truth, offset_ns, options.max_estimate_gap_s);
+  // The trajectory whose poses the pairs' indices count.
+  const TimedPoses& counted =
+      timed && options.association.rule == AssociationRule::kInterpolateEstimate ? truth : estimate;
+  evaluation.paired_share = PairedShare(evaluation.pairs, counted);
+  EvaluateKitti(evaluation.pairs, &evaluation);
+
+  evaluation.alignment = ComputeAlignment(evaluation.pairs, options.alignment);
+  if (!evaluation.alignment.warning.empty()) {
+    evaluation.warnings.push_back(evaluation.alignment.warning);
+  }
+  for (PosePair& pair : evaluation.pairs) pair.estimate = evaluation.alignment * pair.estimate;
+  evaluation.errors = AbsoluteErrors(evaluation.pairs, evaluation.has_orientation);
+  evaluation.absolute = Statistics(evaluation.errors);
+  for (const RelativeErrorOptions& relative : options.relative) {
+    evaluation.relative.push_back(EvaluateRelative(evaluation, counted.t_ns, relative));
+  }
+  evaluation.divergence_reason =
+      DivergenceReason(evaluation.absolute.translation_m, evaluation.path_length_m,
+                       evaluation.completeness, options.divergence);
+  return evaluation;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "core/evaluation/relative_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/evaluation/pose_errors.h"
+#include "core/evaluation/stamp_search.h"
+
+namespace trajlo {
+namespace {
+
+double Distance(const Eigen::Affine3d& a, const Eigen::Affine3d& b) {
+  return (b.translation() - a.translation()).norm();
+}
+
+}  // namespace
+
+IndexPairs PairsOverFrames(std::size_t frames, std::size_t delta, bool all) {
+  IndexPairs pairs;
+  if (delta == 0) return pairs;
+  for (std::size_t i = 0; i + delta < frames; i += all ? 1 : delta) pairs.push_back({i, i + delta});
+  return pairs;
+}
+
+IndexPairs ConsecutivePairsOverDistance(const std::vector<Eigen::Affine3d>& poses, double delta_m) {
+  std::vector<std::size_t> noted;
+  double path = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    path += Distance(poses[i - 1], poses[i]);
+    if (path < delta_m) continue;
+    noted.push_back(i);
+    path = 0.0;
+  }
+  IndexPairs pairs;
+  for (std::size_t k = 1; k < noted.size(); ++k) pairs.push_back({noted[k - 1], noted[k]});
+  return pairs;
+}
+
+IndexPairs AllPairsOverDistance(const std::vector<Eigen::Affine3d>& poses, double delta_m,
+                                double tolerance) {
+  std::vector<double> path(poses.size(), 0.0);
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    path[i] = path[i - 1] + Distance(poses[i - 1], poses[i]);
+  }
+  IndexPairs pairs;
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+    const auto off = [&](std::size_t j) { return std::abs(path[j] - path[i] - delta_m); };
+    const auto begin = path.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    auto after = std::lower_bound(begin, path.end(), path[i] + delta_m);
+    if (after == path.end()) --after;
+    std::size_t j = static_cast<std::size_t>(after - path.begin());
+    if (j > i + 1 && off(j - 1) <= off(j)) --j;
+    // Of poses that stand still at the same path length, the first.
+    while (j > i + 1 && path[j - 1] == path[j]) --j;
+    if (off(j) <= tolerance * delta_m) pairs.push_back({i, j});
+  }
+  return pairs;
+}
+
+IndexPairs ConsecutivePairsOverAngle(const std::vector<Eigen::Affine3d>& poses, double delta_deg) {
+  IndexPairs pairs;
+  std::size_t first = 0;
+  double angle = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    angle += RotationAngleDeg(poses[i - 1].linear().transpose() * poses[i].linear());
+    if (angle < delta_deg) continue;
+    pairs.push_back({first, i});
+    first = i;
+    angle = 0.0;
+  }
+  return pairs;
+}
+
+IndexPairs AllPairsOverTime(const std::vector<std::int64_t>& t_ns, double delta_s,
+                            double tolerance) {
+  const std::int64_t delta_ns = Nanoseconds(delta_s);
+  const std::int64_t tolerance_ns = Nanoseconds(tolerance * delta_s);
+  IndexPairs pairs;
+  for (std::size_t i = 0; i < t_ns.size(); ++i) {
+    const std::size_t j = Nearest(t_ns, t_ns[i] + delta_ns);
+    if (j <= i || j + 1 == t_ns.size()) continue;
+    if (std::abs(t_ns[j] - t_ns[i] - delta_ns) <= tolerance_ns) pairs.push_back({i, j});
+  }
+  return pairs;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "core/report/draw_script.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+namespace trajlo {
+
+std::string RunDrawScript(const std::string& name, const std::filesystem::path& folder) {
+  const char* set = std::getenv("TRAJLO_SCRIPTS");
+  const std::filesystem::path script =
+      std::filesystem::path(set != nullptr ? set : TRAJLO_SCRIPTS_DIR) / name;
+  std::error_code error;
+  if (!std::filesystem::exists(script, error)) return script.string() + " is not there";
+
+  std::string words[] = {script.string(), folder.string()};
+  char* argv[] = {words[0].data(), words[1].data(), nullptr};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  // The standard output is for the table.
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int problem = posix_spawn(&child, words[0].c_str(), &actions, nullptr, argv, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (problem != 0) return script.string() + " cannot be started: " + std::strerror(problem);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR)
+      return std::string("waiting for the script failed: ") + std::strerror(errno);
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+  return script.string() + " failed; it needs python3-numpy, python3-matplotlib and python3-jinja2";
+}
+
+}  // namespace trajlo

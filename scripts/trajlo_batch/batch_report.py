@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""results.csv, the tables, and one self-contained page about a batch."""
+from trajlo_batch import results, table_formats, tables
+from trajlo_batch.places import ROOT
+from trajlo_batch.published import read_published
+from trajlo_report import page
+from trajlo_report import theme as themes
+from trajlo_report.files import write_atomically
+
+# What the page shows of a run's figures, in this order.
+FIGURES = {"trajectory": "truth and estimate in three planes", "over_time": "over time",
+           "error_on_path": "translation error along the path",
+           "error_components": "error of the position by component",
+           "kitti_lengths": "relative errors by length", "map": "map and trajectory from above",
+           "windows": "position, inliers, weakest direction, milliseconds per stage"}
+
+
+def make_tables(suite, rows):
+    """The suite's own tables, and one for each published table that it is compared with."""
+    found = [("table", tables.suite_table(suite, rows)),
+             ("speed", tables.speed_table(suite, rows))]
+    for path in suite.published:
+        published = read_published(ROOT / path)
+        name = path.rpartition("/")[2].removesuffix(".yaml")
+        found.append((name, tables.compared_table(suite, rows, published)))
+    return found
+
+
+def write_tables(output, found):
+    for name, table in found:
+        write_atomically(output / f"{name}.md", table_formats.to_markdown(table))
+        write_atomically(output / f"{name}.tex", table_formats.to_latex(table))
+        write_atomically(output / f"{name}.csv", table_formats.to_csv(table))
+
+
+def figures_of(folder):
+    paths = {folder / "page" / "figures" / f"{name}.png": text for name, text in FIGURES.items()}
+    return [{"path": path, "caption": caption, "width": 470}
+            for path, caption in paths.items() if path.is_file()]
+
+
+def run_entry(plan, row):
+    """What the page says about one run."""
+    folder = plan.places.output / row["folder"]
+    shown = [(key, value) for key, value in row.items()
+             if value not in (None, "") and key not in ("command", "folder", "suite")]
+    thumbnail = folder / "page" / "figures" / "thumbnail.png"
+    options = folder / "result" / "config.yaml"
+    return {
+        "row": row, "anchor": anchor(row["folder"]), "figures": figures_of(folder),
+        "thumbnail": thumbnail if thumbnail.is_file() else None,
+        "numbers": shown,
+        "config": options.read_text() if options.is_file() else "",
+    }
+
+
+def anchor(folder):
+    return "run-" + folder.replace("/", "-")
+
+
+def summary(rows):
+    counts = {}
+    for row in rows:
+        counts[row["result"]] = counts.get(row["result"], 0) + 1
+    words = {results.OK: "ended well", results.FAILED: "with an x",
+             results.UNFINISHED: "not finished", results.NO_TRUTH: "without truth"}
+    return ", ".join(f"{count} {words[result]}" for result, count in counts.items())
+
+
+def write_report(plan, theme_name="light"):
+    """Writes results.csv, tables and report.html below the batch's folder; returns the rows."""
+    output, suite = plan.places.output, plan.suite
+    if not plan.runs:
+        return []
+    rows = results.collect(plan)
+    write_atomically(output / "results.csv", results.to_csv(rows))
+    found = make_tables(suite, rows)
+    write_tables(output, found)
+    theme = themes.THEMES[theme_name]
+    programs = [(name, f"{program['version']} ({program['digest']})")
+                for name, program in plan.programs.items()]
+    ended = [run_entry(plan, row) for row in rows if row["result"] != results.UNFINISHED]
+    text = page.render(
+        "batch.html", theme, title=suite.title, suite=suite, summary=summary(rows),
+        tables=[table for _, table in found], count=len(rows), runs=ended, anchor=anchor,
+        heading=table_formats.heading, missing=plan.missing, programs=programs)
+    write_atomically(output / "report.html", text)
+    return rows

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""What the command lines of batches and experiments share."""
+import argparse
+import os
+import pathlib
+import signal
+import sys
+
+from trajlo_batch.places import ROOT, Places
+from trajlo_batch.yaml_lines import SuiteError
+from trajlo_report import theme as themes
+
+
+class Parser(argparse.ArgumentParser):
+    """Wrong usage ends with 1, as it does with the other programs."""
+
+    def __init__(self, **keywords):
+        super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, **keywords)
+
+    def error(self, message):
+        self.print_usage(sys.stderr)
+        self.exit(1, f"{self.prog}: {message}\n")
+
+
+def positive(text):
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError("must be at least 1")
+    return number
+
+
+def add_work_arguments(parser, run_name):
+    """Where to work, on what, and how; `run_name` says how users name a run."""
+    parser.add_argument("-j", "--jobs", type=positive, default=len(os.sched_getaffinity(0)),
+                        help="cores to use, with --slurm jobs at a time; default: all cores")
+    parser.add_argument("--output", type=pathlib.Path, help="default: runs/<name of the file>")
+    parser.add_argument("--data", type=pathlib.Path,
+                        default=os.environ.get("TRAJLO_DATASETS", ROOT / "data"),
+                        help="the folder of data sets; default: $TRAJLO_DATASETS, else data/")
+    parser.add_argument("--build", type=pathlib.Path,
+                        default=os.environ.get("TRAJLO_BUILD_DIR", ROOT / "build"),
+                        help="the build to run; default: $TRAJLO_BUILD_DIR, else build/")
+    parser.add_argument("--list", action="store_true", help="show the runs and stop")
+    parser.add_argument("--command", metavar=run_name.upper(),
+                        help="print how to repeat a run and stop")
+    parser.add_argument("--report", action="store_true", help="only write tables and page again")
+    parser.add_argument("--retry", action="store_true", help="do again what has an x by its exit")
+    parser.add_argument("--any-version", action="store_true",
+                        help="keep runs that another build of the programs has done")
+    parser.add_argument("--drop-recordings", action="store_true",
+                        help="delete each simulated recording as soon as its runs are done")
+    parser.add_argument("--theme", choices=themes.THEMES, default="light")
+    parser.add_argument("--slurm", action="store_true", help="submit the jobs with sbatch")
+    parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for it")
+
+
+def places_of(arguments, name):
+    output = arguments.output or (
+        pathlib.Path(os.environ.get("TRAJLO_RUNS", ROOT / "runs")) / name)
+    return Places(arguments.build.resolve(), arguments.data.resolve(), output.resolve())
+
+
+def say_missing(suite, missing):
+    for name, paths in missing.items():
+        print(f"{name}: no data; looked for {', '.join(paths)}", file=sys.stderr)
+    if missing:
+        print(f"{len(missing)} of {len(suite.sequences)} sequences have no data. --data or "
+              f"TRAJLO_DATASETS names the folder that they are below. {suite.needs}".rstrip(),
+              file=sys.stderr)
+
+
+def show_list(plan):
+    for number, run in enumerate(plan.runs, 1):
+        why = f" ({', '.join(run.changes)} changed)" if run.changes else ""
+        print(f"{number:4} {run.state:8} {run.folder}{why}")
+
+
+def interrupt(*_):
+    raise KeyboardInterrupt
+
+
+def guarded(parser, work):
+    """Calls work(arguments) and turns what goes wrong into messages and exit codes."""
+    signal.signal(signal.SIGTERM, interrupt)
+    arguments = parser.parse_args()
+    try:
+        return work(arguments)
+    except SuiteError as error:
+        print(f"{parser.prog}: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"{parser.prog}: {error}", file=sys.stderr)
+        return 5
+    except KeyboardInterrupt:
+        print("interrupted; the same command goes on where this one stopped", file=sys.stderr)
+        return 130

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: MIT
+"""From a suite to runs: each has a folder, a job file, and digests of what it depends on.
+
+A run is done when its status.json carries the digests of its job. What has changed is moved to
+OUTPUT/replaced/ before anything new is written, so that no result is ever overwritten.
+"""
+import dataclasses
+import subprocess
+
+from trajlo_batch.kitti_calib import camera_in_lidar
+from trajlo_batch.places import (ROOT, digest, file_digest, identify, read_json_if, write_json)
+from trajlo_batch.yaml_lines import SuiteError
+
+DONE, MISSING, CHANGED = "done", "missing", "changed"
+
+
+@dataclasses.dataclass
+class Run:
+    """One configuration on one sequence."""
+    configuration: object
+    sequence: object
+    job: dict
+    options: str       # the effective configuration, as trajlo_run shows it
+    state: str = MISSING
+    changes: tuple = ()
+
+    @property
+    def folder(self):
+        return f"{self.configuration.name}/{self.sequence.name}"
+
+
+@dataclasses.dataclass
+class Plan:
+    suite: object
+    places: object
+    programs: dict
+    runs: list
+    missing: dict      # sequence name -> the files that were looked for
+
+
+def effective_options(places, suite, configuration, sequence):
+    """All options of a run as trajlo_run understands them; its refusal ends the batch early."""
+    files = config_files(places, sequence, configuration)
+    values = {**sequence.settings, **configuration.settings}
+    command = [places.program("trajlo_run"), "--show_config"]
+    command += [f"--config={','.join(map(str, files))}"] if files else []
+    command += [f"--set={','.join(f'{k}={v}' for k, v in values.items())}"] if values else []
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise SuiteError(f"{suite.file}: the configuration {configuration.name} on "
+                         f"{sequence.name} is refused: {done.stderr.strip()}")
+    return done.stdout, [str(path) for path in files], values
+
+
+def recording_identity(places, sequence):
+    if sequence.scenario:
+        return {"scenario": sequence.scenario, "seed": sequence.seed,
+                "duration_s": sequence.duration_s, "parameters": sequence.parameters}
+    return {"paths": [str(places.find(path, places.data)) for path in sequence.recording]}
+
+
+def config_files(places, sequence, configuration):
+    return [places.find(path.replace("{data}", str(places.data)))
+            for path in (*sequence.config, *configuration.config)]
+
+
+def files_sought(places, sequence):
+    """What a sequence needs and is not there: recording, truth, and files that come with them."""
+    paths = [*sequence.recording, *([sequence.truth] if sequence.truth else [])]
+    paths += [path.replace("{data}/", "") for path in (*sequence.config,
+                                                       *sequence.evaluate.values())
+              if path.startswith("{data}/")]
+    found = [places.find(path, places.data) for path in paths]
+    return [str(path) for path in found if not path.exists()]
+
+
+def evaluation_flags(places, sequence):
+    """Flags of trajlo_evaluate. `kitti_calib` names a calib.txt of KITTI, whose truth is the path
+    of camera 0."""
+    values = {name: value.replace("{data}", str(places.data))
+              for name, value in sequence.evaluate.items()}
+    calibration = values.pop("kitti_calib", None)
+    if calibration:
+        pose = camera_in_lidar(calibration)
+        values["T_body_truth"] = ",".join(f"{number:.12g}" for number in pose.flat)
+    return values
+
+
+def make_run(suite, places, programs, configuration, sequence, theme, cache):
+    key = (sequence.config, configuration.name, tuple(sequence.settings.items()))
+    if key not in cache:
+        cache[key] = effective_options(places, suite, configuration, sequence)
+    options, files, values = cache[key]
+    recording = recording_identity(places, sequence)
+    truth = places.find(sequence.truth, places.data) if sequence.truth else None
+    job = {
+        "configuration": configuration.name, "sequence": sequence.name,
+        "program": programs["trajlo_run"], "recording": recording, "config": files, "set": values,
+        "run": sequence.run, "topics": sequence.topics, "lidars": configuration.lidars,
+        "threads": suite.threads, "timeout_s": suite.timeout_s,
+        "depends_on": {
+            "options": digest([options, sequence.run]),
+            "recording": digest([recording, sequence.topics, configuration.lidars]),
+            "program": programs["trajlo_run"]["digest"]},
+        "evaluation": {
+            "program": programs["trajlo_evaluate"], "theme": theme,
+            "truth": str(truth) if truth else "",
+            "truth_digest": file_digest(truth) if truth and truth.is_file() else "",
+            "has_truth": bool(truth or sequence.scenario),
+            "flags": evaluation_flags(places, sequence)},
+    }
+    if sequence.scenario:
+        job["depends_on"]["simulator"] = programs["trajlo_simulate"]["digest"]
+    return Run(configuration, sequence, job, options)
+
+
+def differences(old, new, any_version):
+    """What a finished run depended on and has changed since."""
+    ignored = {"program", "simulator"} if any_version else set()
+    return tuple(sorted(key for key in {*old, *new}
+                        if key not in ignored and old.get(key) != new.get(key)))
+
+
+def make_plan(suite, places, theme="light", any_version=False, retry=False):
+    """Looks at the suite and at what is there; writes nothing. Throws SuiteError."""
+    names = ["trajlo_run", "trajlo_evaluate"]
+    names += ["trajlo_simulate"] if any(item.scenario for item in suite.sequences) else []
+    programs = {name: identify(places.program(name)) for name in names}
+    runs, missing, cache = [], {}, {}
+    for configuration, sequence in suite.pairs:
+        sought = files_sought(places, sequence)
+        if sought:
+            missing[sequence.name] = sought
+            continue
+        run = make_run(suite, places, programs, configuration, sequence, theme, cache)
+        status = read_json_if(places.output / run.folder / "status.json")
+        if status:
+            run.changes = differences(status["depends_on"], run.job["depends_on"], any_version)
+            if retry and status["exit_code"] not in (0, 3):
+                run.changes += ("it failed",)
+            run.state = CHANGED if run.changes else DONE
+        runs.append(run)
+    return Plan(suite, places, programs, runs, missing)
+
+
+def set_aside(places, run):
+    """Moves a result that is no longer asked for to OUTPUT/replaced/."""
+    base = places.output / "replaced" / run.configuration.name
+    base.mkdir(parents=True, exist_ok=True)
+    count = 1
+    while (base / f"{run.sequence.name}.{count}").exists():
+        count += 1
+    (places.output / run.folder).rename(base / f"{run.sequence.name}.{count}")
+
+
+def write_if_changed(path, value):
+    """Snakemake goes by times of files: what says the same must not become newer."""
+    if read_json_if(path) != value:
+        write_json(path, value)
+
+
+def write_recording_jobs(plan):
+    """A job file for each recording that has to be simulated."""
+    names = []
+    for sequence in plan.suite.sequences:
+        runs = [run for run in plan.runs if run.sequence.name == sequence.name]
+        if not sequence.scenario or not runs:
+            continue
+        names.append(sequence.name)
+        path = plan.places.output / "recordings" / f"{sequence.name}.json"
+        job = {"recording": runs[0].job["recording"], "program": plan.programs["trajlo_simulate"]}
+        # With finished runs of another version that are kept, the recording is kept as well.
+        if any(run.state != DONE for run in runs) or not path.is_file():
+            write_if_changed(path, job)
+    return names
+
+
+def write_plan(plan, keep_recordings):
+    """Sets aside what has changed, and writes the job files and the table for Snakemake."""
+    output = plan.places.output
+    for run in plan.runs:
+        if run.state == CHANGED:
+            set_aside(plan.places, run)
+            run.state = MISSING
+        folder = output / run.folder
+        job = {key: value for key, value in run.job.items() if key != "evaluation"}
+        if run.state != DONE:
+            write_if_changed(folder / "job.json", jsonable(job))
+        write_if_changed(folder / "evaluation_job.json", jsonable(run.job["evaluation"]))
+    table = {
+        "runs": [{"folder": run.folder, "recording": run.sequence.name if run.sequence.scenario
+                  else ""} for run in plan.runs],
+        "recordings": write_recording_jobs(plan), "threads": plan.suite.threads,
+        "goal": plan.suite.goal, "keep_recordings": keep_recordings,
+        "scripts": str(ROOT / "scripts")}
+    write_json(output / "jobs.json", table)
+
+
+def jsonable(value):
+    """As it will be read again: tuples become lists."""
+    if isinstance(value, dict):
+        return {key: jsonable(item) for key, item in value.items()}
+    return [jsonable(item) for item in value] if isinstance(value, (list, tuple)) else value

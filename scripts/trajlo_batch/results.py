@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: MIT
+"""What came out of a batch: a row a run, with the options that vary, metrics, time and how it
+ended."""
+import csv
+import io
+import shlex
+
+import yaml
+
+from trajlo_batch.places import read_json_if
+from trajlo_batch.steps import simulate_command
+
+USABLE = (0, 3)  # exit codes of runs whose whole recording was processed
+OK, FAILED, UNFINISHED, NO_TRUTH = "ok", "x", "not finished", "no truth"
+
+
+def flatten(tree, prefix=""):
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            yield from flatten(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value
+
+
+def varied_options(runs):
+    """For each run the options in which the runs differ, from the effective configurations."""
+    parsed = {}
+    for run in runs:
+        if run.options not in parsed:
+            parsed[run.options] = dict(flatten(yaml.safe_load(run.options)))
+    keys = {key for options in parsed.values() for key in options}
+    keys = sorted(key for key in keys
+                  if len({str(options.get(key)) for options in parsed.values()}) > 1)
+    return keys, {run.folder: [parsed[run.options].get(key) for key in keys] for run in runs}
+
+
+def dig(tree, *keys):
+    """The value below these keys; nothing if one of them is not there."""
+    for key in keys:
+        if not isinstance(tree, dict) or tree.get(key) is None:
+            return None
+        tree = tree[key]
+    return tree
+
+
+def evaluation_values(folder):
+    """Metrics of an evaluated run, and why it counts as diverged, if it does."""
+    document = read_json_if(folder / "evaluation" / "evaluation.json")
+    estimate = dig({"list": document}, "list", "estimates") or [{}]
+    estimate = estimate[0]
+    values = {}
+    for name, key in (("ate", "translation_m"), ("ate_rotation", "rotation_deg")):
+        unit = "m" if key == "translation_m" else "deg"
+        for statistic in ("rmse", "mean", "median", "std", "max"):
+            values[f"{name}_{statistic}_{unit}"] = dig(estimate, "ate", key, statistic)
+    for piece in estimate.get("rpe") or []:
+        over = f"rpe_{piece['delta']:g}{piece['unit']}"
+        values[f"{over}_rmse_m"] = dig(piece, "translation_m", "rmse")
+        values[f"{over}_rotation_rmse_deg"] = dig(piece, "rotation_deg", "rmse")
+    values["kitti_translation_percent"] = dig(estimate, "kitti", "translation_percent")
+    values["kitti_rotation_deg_per_m"] = dig(estimate, "kitti", "rotation_deg_per_m")
+    for key in ("completeness", "pairs", "path_length_m", "duration_s", "time_offset_s"):
+        values[key] = estimate.get(key)
+    diverged = (estimate.get("divergence_reason") or "diverged") if estimate.get("diverged") else ""
+    return values, diverged
+
+
+def run_values(folder):
+    summary = read_json_if(folder / "result" / "run.json")
+    return {
+        "times_real_time": dig(summary, "resources", "real_time_factor"),
+        "estimation_ms_per_data_second":
+            dig(summary, "resources", "estimation_ms_per_data_second", "median"),
+        "inlier_share": dig(summary, "windows", "inlier_share"),
+        "poses_flagged": dig(summary, "result", "poses_flagged"),
+        "distance_to_start_m": dig(summary, "result", "distance_to_start_m"),
+        "lost_at_s": dig(summary, "result", "lost_at_s"),
+        "version": dig(summary, "versions", "git"),
+    }
+
+
+def outcome(status, evaluation_status, diverged):
+    """One of OK, FAILED, UNFINISHED, NO_TRUTH, and the reason."""
+    if not status:
+        return UNFINISHED, "see snakemake.log"
+    if status["exit_code"] not in USABLE:
+        return FAILED, status["reason"]
+    if not evaluation_status:
+        return UNFINISHED, "not evaluated; see snakemake.log"
+    if evaluation_status["reason"] == "no truth":
+        return NO_TRUTH, evaluation_status["reason"]
+    if evaluation_status["reason"]:
+        return FAILED, evaluation_status["reason"]
+    return (FAILED, diverged) if diverged else (OK, status["reason"])
+
+
+def collect(plan):
+    """The rows of all planned runs; all rows have the same keys in the same order."""
+    keys, varied = varied_options(plan.runs)
+    rows = []
+    for run in plan.runs:
+        folder = plan.places.output / run.folder
+        status = read_json_if(folder / "status.json") or {}
+        metrics, diverged = evaluation_values(folder)
+        result, reason = outcome(status, read_json_if(folder / "evaluation_status.json"), diverged)
+        rows.append({
+            "suite": plan.suite.name, "configuration": run.configuration.name,
+            "sequence": run.sequence.name, "group": run.sequence.group,
+            "seed": run.sequence.seed or None, "degenerate": run.sequence.degenerate,
+            **{key: value for key, value in zip(keys, varied[run.folder])},
+            "result": result, "reason": reason, "exit_code": status.get("exit_code"),
+            "diverged": bool(diverged) if metrics["pairs"] is not None else None,
+            **metrics, **run_values(folder),
+            **{key: status.get(key) for key in ("wall_s", "cpu_s", "peak_memory_mb", "started",
+                                                "host")},
+            "folder": run.folder, "command": rerun_command(plan, run, status),
+        })
+    names = list(dict.fromkeys(key for row in rows for key in row))
+    return [{name: row.get(name) for name in names} for row in rows]
+
+
+def with_output(command, folder):
+    return [f"--output={folder}" if part.startswith("--output=") else part for part in command]
+
+
+def rerun_command(plan, run, status, again=""):
+    """What repeats the run in a folder of its own, for the shell; a recording that was deleted is
+    simulated first."""
+    command = with_output(status.get("command", []), again or f"{run.sequence.name}-again")
+    recording = plan.places.output / "recordings" / run.sequence.name
+    if not command or not run.sequence.scenario or recording.exists():
+        return shlex.join(command)
+    job = {"recording": run.job["recording"], "program": plan.programs["trajlo_simulate"]}
+    return f"{shlex.join(simulate_command(job, recording))} && {shlex.join(command)}"
+
+
+def cell(value):
+    if isinstance(value, float):
+        return f"{value:.9g}"
+    return "" if value is None else str(value)
+
+
+def to_csv(rows):
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(rows[0])
+    writer.writerows([cell(value) for value in row.values()] for row in rows)
+    return stream.getvalue()

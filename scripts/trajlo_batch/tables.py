@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: MIT
+"""Tables of results. As in the paper: the best is bold, the best of each category underlined,
+`x` is a divergence, `-` is not there."""
+import dataclasses
+import math
+import statistics
+
+from trajlo_batch import results
+
+X, ABSENT, PENDING = "x", "-", "…"
+GOOD = (results.OK, results.NO_TRUTH)
+# What readers see in the place of a column of results.csv.
+METRICS = {"ate_rmse_m": "absolute position error, RMSE [m]",
+           "ate_rotation_rmse_deg": "absolute rotation error, RMSE [°]",
+           "kitti_translation_percent": "KITTI's relative translation error [%]",
+           "kitti_rotation_deg_per_m": "KITTI's relative rotation error [°/m]",
+           "distance_to_start_m": "distance of the end from the start [m]"}
+
+
+@dataclasses.dataclass
+class Cell:
+    text: str
+    value: float = math.nan
+    best: bool = False
+    category_best: bool = False
+    note: str = ""     # what a reader sees who asks
+    folder: str = ""   # of the run, where it is one
+
+
+@dataclasses.dataclass
+class Line:
+    """One approach: its category, label and cells."""
+    label: str
+    category: str = ""
+    sensors: str = ""
+    ours: bool = True
+    cells: list = dataclasses.field(default_factory=list)
+
+
+@dataclasses.dataclass
+class Table:
+    """Cells by approach; `transposed` prints a row a column."""
+    caption: str
+    columns: list
+    lines: list
+    notes: list = dataclasses.field(default_factory=list)
+    transposed: bool = False
+
+
+def published_cell(text):
+    return Cell(text, math.nan if text in (X, ABSENT) else float(text))
+
+
+def result_cell(rows, suite, decimals):
+    """The cell of all seeds of one sequence with one configuration."""
+    if not rows:
+        return Cell(ABSENT)
+    note = "; ".join(f"{row['sequence']}: {row['result']}, {row['reason']}"
+                     for row in rows if row["result"] not in GOOD)
+    folder = rows[0]["folder"]
+    values = [row[suite.metric] for row in rows
+              if row["result"] in GOOD and row.get(suite.metric) is not None]
+    failed = sum(row["result"] == results.FAILED for row in rows)
+    if not values and not failed:
+        pending = any(row["result"] == results.UNFINISHED for row in rows)
+        return Cell(PENDING if pending else ABSENT, note=note)
+    if not values:
+        return Cell(X, note=note, folder=folder)
+    value = {"median": statistics.median, "mean": statistics.fmean, "max": max}[
+        suite.over_seeds](values)
+    text = f"{value:.{decimals}f}"
+    if len(values) > 1:
+        spread = f"{min(values):.{decimals}f} to {max(values):.{decimals}f}, {len(values)} seeds"
+        note = f"{spread}; {note}" if note else spread
+    if failed:
+        text += f" ({failed} {X})"
+    # One that fails on a seed is not the best, however good the others are.
+    return Cell(text, math.nan if failed else value, note=note, folder=folder)
+
+
+def average_cell(cells, decimals):
+    values = [cell.value for cell in cells if cell.text != ABSENT]
+    if not values or any(math.isnan(value) for value in values):
+        return Cell(ABSENT)
+    return Cell(f"{statistics.fmean(values):.{decimals}f}", statistics.fmean(values))
+
+
+def mark(lines):
+    """Marks the best of each column, and of each category when there are several. Numbers that
+    are printed alike are equally good."""
+    categories = {line.category for line in lines}
+    for column in zip(*(line.cells for line in lines)):
+        cells = list(zip(lines, column))
+        best_of(cells, "best")
+        for category in categories if len(categories) > 1 else ():
+            best_of([item for item in cells if item[0].category == category], "category_best")
+
+
+def best_of(cells, attribute):
+    values = [float(cell.text) for _, cell in cells if not math.isnan(cell.value)]
+    for _, cell in cells:
+        if values and not math.isnan(cell.value) and float(cell.text) == min(values):
+            setattr(cell, attribute, True)
+
+
+def our_lines(suite, rows, columns, decimals, average=""):
+    lines = []
+    for configuration in suite.configurations:
+        cells = []
+        for column in columns:
+            found = [row for row in rows if row["configuration"] == configuration.name
+                     and row["group"] == column]
+            cells.append(result_cell(found, suite, decimals))
+        for index, column in enumerate(columns):
+            if column == average:
+                cells[index] = average_cell([cell for cell in cells if cell.folder], decimals)
+        lines.append(Line(configuration.label, configuration.category, configuration.sensors,
+                          True, cells))
+    return lines
+
+
+def compared_table(suite, rows, published):
+    """Our rows below those of a paper, category by category."""
+    lines = [Line(approach, category, sensors, False, [published_cell(text) for text in values])
+             for approach, category, sensors, values in published.rows]
+    lines += our_lines(suite, rows, published.columns, published.decimals, average="AVG")
+    order = list(dict.fromkeys(line.category for line in lines))
+    lines.sort(key=lambda line: order.index(line.category))
+    mark(lines)
+    notes = [f"Rows without * are from {published.source}.", *published.notes]
+    return Table(published.caption, list(published.columns), lines, notes)
+
+
+def suite_table(suite, rows, marked=True):
+    """All sequences of the suite with all configurations."""
+    groups = list(dict.fromkeys(sequence.group for sequence in suite.sequences))
+    degenerate = {sequence.group: sequence.degenerate for sequence in suite.sequences
+                  if sequence.degenerate}
+    lines = our_lines(suite, rows, groups, suite.decimals)
+    if suite.average:
+        for line in lines:
+            line.cells.append(average_cell(line.cells, suite.decimals))
+        groups.append("average")
+    # With one configuration there is nothing to be better than.
+    if marked and len(lines) > 1:
+        mark(lines)
+    seeds = {sequence.seed for sequence in suite.sequences if sequence.seed}
+    notes = [f"{group}: degenerate by construction ({why})" for group, why in degenerate.items()]
+    if len(seeds) > 1:
+        notes.append(f"Each value is the {suite.over_seeds} of {len(seeds)} seeds; (1 x) says that "
+                     "one of them failed.")
+    columns = [f"{group} †" if group in degenerate else group for group in groups]
+    return Table(f"{suite.title}: {METRICS.get(suite.metric, suite.metric)}", columns, lines, notes,
+                 transposed=suite.rows == "sequences")
+
+
+def speed_table(suite, rows):
+    """How many times faster than the recording each run was."""
+    speed = dataclasses.replace(suite, metric="times_real_time", decimals=1)
+    table = suite_table(speed, rows, marked=False)
+    table.caption = f"{suite.title}: times real time, {suite.threads} thread(s) a run"
+    table.notes = []
+    return table

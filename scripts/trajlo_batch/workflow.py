@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Starts Snakemake on the jobs of a plan, and shows how far it is."""
+import fcntl
+import os
+import signal
+import subprocess
+import sys
+
+from trajlo_batch.places import ROOT, read_json_if
+from trajlo_batch.progress import ProgressBar
+from trajlo_batch.results import USABLE
+from trajlo_batch.yaml_lines import SuiteError
+
+WORKFLOW = ROOT / "scripts" / "workflow"
+
+
+def lock(output):
+    """Holds OUTPUT until this process ends, in whichever way; its jobs end with it."""
+    output.mkdir(parents=True, exist_ok=True)
+    file = (output / ".batch_lock").open("w")
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        raise SuiteError(f"another batch is at work in {output}; wait for it, or choose another "
+                         "--output") from error
+    return file
+
+
+def snakemake_command(output, jobs, slurm, sbatch):
+    command = ["setpriv", "--pdeathsig", "KILL", "snakemake", "--snakefile", WORKFLOW / "Snakefile",
+               "--directory", output, "--config", f"jobs={output / 'jobs.json'}",
+               "--keep-going", "--rerun-triggers", "mtime",
+               # All jobs make their files beside and rename them: what is there is whole, even if
+               # Snakemake was killed before it took note.
+               "--ignore-incomplete",
+               # The lock of this batch is freed when it is killed; Snakemake's own is not.
+               "--nolock", "--nocolor", "--scheduler", "greedy"]
+    if not slurm:
+        return command + ["--cores", str(jobs)]
+    logs = output / "slurm"
+    logs.mkdir(exist_ok=True)
+    submit = f"sbatch --parsable --cpus-per-task={{threads}} --output={logs}/%j.log {sbatch}"
+    return command + ["--jobs", str(jobs), "--cluster", submit.strip(),
+                      "--cluster-status", WORKFLOW / "slurm_status.py",
+                      "--cluster-cancel", "scancel", "--latency-wait", "60"]
+
+
+def progress(plan):
+    """How many runs have ended, how many of them without a usable result, and how many have all
+    that belongs to them: an evaluation, in a batch a page."""
+    folders = [plan.places.output / run.folder for run in plan.runs]
+    statuses = [read_json_if(folder / "status.json") for folder in folders]
+    codes = [status["exit_code"] for status in statuses if status]
+    complete = sum((folder / plan.suite.goal).is_file() for folder in folders)
+    return len(codes), sum(code not in USABLE for code in codes), complete
+
+
+def work(plan, jobs, slurm=False, sbatch=""):
+    """Lets Snakemake do what is missing; its log is OUTPUT/snakemake.log. Returns its exit code."""
+    output = plan.places.output
+    already, _, _ = progress(plan)
+    bar = ProgressBar(len(plan.runs), already, sys.stderr)
+    with (output / "snakemake.log").open("a") as log:
+        process = subprocess.Popen(snakemake_command(output, jobs, slurm, sbatch), stdout=log,
+                                   stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            while True:
+                bar.update(*progress(plan))
+                try:
+                    return process.wait(0.5)
+                except subprocess.TimeoutExpired:
+                    pass
+        except KeyboardInterrupt:
+            # To Snakemake and all of its jobs, once: runs flush and end, then Snakemake does.
+            os.killpg(process.pid, signal.SIGINT)
+            process.wait()
+            raise
+        finally:
+            bar.update(*progress(plan))
+            bar.close()

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""Figures of a comparison of solvers; each takes the columns of its CSV file and the variants."""
+import numpy as np
+
+from trajlo_report import theme as themes
+
+SMALLEST_M = 1e-16  # solutions that are equal are drawn here
+FAST = 3.0          # bars of stages show variants up to so many times the yardstick's time
+
+
+def rows_of(table, variant):
+    """The columns of one variant."""
+    mask = np.array([name == variant for name in table["variant"]])
+    return {key: np.asarray(values)[mask] for key, values in table.items() if key != "variant"}
+
+
+def of_one_energy(variants):
+    """Kernels change the energy itself: its costs and distances do not compare."""
+    return [item for item in variants if "kernel" not in item["set"]]
+
+
+def excess_costs(iterations, variant, steps):
+    """Cost above the window's lowest, as a share of it, by step: median over the windows.
+
+    A window that has converged keeps its last value."""
+    own = rows_of(iterations, variant)
+    curves = []
+    for window in np.unique(own["window"]):
+        costs = own["cost"][own["window"] == window]
+        excess = (costs - costs.min()) / max(costs.min(), 1e-300)
+        curves.append(np.pad(excess, (0, max(0, steps - len(excess))), mode="edge")[:steps])
+    return np.median(curves, axis=0) if curves else np.zeros(0)
+
+
+def legend_below(axes):
+    """Sixteen names hide the data when they stand inside."""
+    axes.legend(ncol=3, fontsize=5, loc="upper center", bbox_to_anchor=(0.5, -0.22))
+
+
+def draw_costs(iterations, variants, theme, width_in):
+    figure, axes = themes.plt.subplots(figsize=(width_in, 0.95 * width_in),
+                                       constrained_layout=True)
+    for index, item in enumerate(variants):
+        curve = excess_costs(iterations, item["name"], 12)
+        curve = np.where(curve > 0, curve, np.nan)
+        axes.semilogy(curve, label=item["name"], marker=".", ms=3,
+                      **themes.method_style(theme, index))
+    axes.set(xlabel="step", ylabel="cost above the lowest (share)")
+    legend_below(axes)
+    return figure
+
+
+def draw_stages(variants, theme, width_in):
+    """Milliseconds a window: evaluation, linear equations, and what else a solver does."""
+    names = [item["name"] for item in variants]
+    totals = np.array([item["lockstep"]["total_ms"] for item in variants])
+    evaluate = np.array([item["lockstep"]["evaluate_ms"] for item in variants])
+    linear = np.array([item["lockstep"]["linear_solve_ms"] for item in variants])
+    fast = totals <= FAST * totals[0]
+    figure, (bars, dots) = themes.plt.subplots(
+        1, 2, figsize=(2 * width_in, 0.16 * width_in + 0.17 * len(names)), sharey=False,
+        constrained_layout=True)
+    place = np.arange(np.count_nonzero(fast))
+    left = np.zeros(len(place))
+    parts = (("residuals and Jacobians", evaluate, theme.methods[0]),
+             ("linear equations", linear, theme.methods[4]),
+             ("other", np.maximum(totals - evaluate - linear, 0), theme.stages["segment"]))
+    for label, values, color in parts:
+        bars.barh(place, values[fast], left=left, color=color, label=label)
+        left += values[fast]
+    bars.set_yticks(place, [name for name, is_fast in zip(names, fast) if is_fast])
+    bars.set(xlabel="ms a window")
+    bars.invert_yaxis()
+    bars.legend(fontsize=6, ncol=3, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    dots.plot(totals / totals[0], np.arange(len(names)), "o", color=theme.methods[0], ms=4)
+    dots.axvline(1.0, color=theme.text, lw=0.6)
+    dots.set_yticks(np.arange(len(names)), names)
+    dots.set(xlabel=f"time, multiple of {names[0]}", xscale="log")
+    dots.invert_yaxis()
+    return figure
+
+
+def draw_distances(lockstep, variants, theme, width_in):
+    """How far apart solutions of the same window are, as a cumulated histogram."""
+    figure, axes = themes.plt.subplots(figsize=(width_in, 0.95 * width_in),
+                                       constrained_layout=True)
+    for index, item in enumerate(variants[1:], 1):
+        distances = np.sort(np.maximum(rows_of(lockstep, item["name"])["from_first_m"], SMALLEST_M))
+        share = np.arange(1, len(distances) + 1) / len(distances)
+        axes.step(distances, 100 * share, where="post", label=item["name"],
+                  **themes.method_style(theme, index))
+    axes.set(xscale="log", xlabel=f"distance from the solution of {variants[0]['name']} [m]",
+             ylabel="windows [%]", ylim=(0, 101))
+    legend_below(axes)
+    return figure
+
+
+def draw_points(lockstep, variants, theme, width_in):
+    """Time of a step against the number of points in the window."""
+    figure, axes = themes.plt.subplots(figsize=(width_in, 0.95 * width_in),
+                                       constrained_layout=True)
+    for index, item in enumerate(variants):
+        own = rows_of(lockstep, item["name"])
+        tries = np.maximum(own["steps"] + own["rejected_steps"], 1)
+        color = themes.method_style(theme, index)["color"]
+        axes.plot(own["points"], own["total_ms"] / tries, "osv^D*"[index // 6 % 6], color=color,
+                  ms=2, label=item["name"])
+    axes.set(yscale="log", xlabel="points in the window", ylabel="ms a step")
+    legend_below(axes)
+    return figure
+
+
+def draw_free(variants, theme, width_in):
+    """Whole runs: processor time, and how far the trajectories part; errors where truth is known."""
+    names = [item["name"] for item in variants]
+    place = np.arange(len(names))
+    errors = [item["free"]["ate_rmse_m"] for item in variants]
+    has_errors = any(error is not None for error in errors)
+    figure, grid = themes.plt.subplots(
+        1, 3 if has_errors else 2, sharey=True, constrained_layout=True,
+        figsize=(2 * width_in, 0.16 * width_in + 0.17 * len(names)))
+    color = theme.methods[0]
+    grid[0].barh(place, [item["free"]["cpu_s"] for item in variants], color=color)
+    grid[0].set(xlabel="processor time [s]")
+    apart = [max(item["free"]["max_from_first_m"], SMALLEST_M) for item in variants]
+    grid[1].plot(apart, place, "o", color=color, ms=4)
+    grid[1].set(xscale="log", xlabel=f"largest distance from {names[0]} [m]")
+    if has_errors:
+        grid[2].barh(place, [error or 0.0 for error in errors], color=color)
+        grid[2].set(xlabel="position error, RMSE [m]")
+        grid[2].locator_params(axis="x", nbins=4)
+    grid[0].set_yticks(place, names)
+    grid[0].invert_yaxis()
+    return figure

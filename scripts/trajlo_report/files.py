@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""Reads what trajlo_run and trajlo_evaluate write, and writes pages."""
+import csv
+import dataclasses
+import json
+import os
+import pathlib
+
+import numpy as np
+
+
+class ReportError(Exception):
+    """A file that a report needs is missing or not what it should be."""
+
+
+def write_atomically(path, text):
+    """Never leaves half a file: written beside, then renamed."""
+    path = pathlib.Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    beside.write_text(text)
+    beside.replace(path)
+
+
+def read_tum(path):
+    """Times (s) and positions (m) of a TUM file; an unfinished last line is left out."""
+    rows = []
+    for line in pathlib.Path(path).read_text().splitlines():
+        values = line.split()
+        if len(values) == 8 and not line.startswith("#"):
+            rows.append([float(value) for value in values[:4]])
+    if not rows:
+        raise ReportError(f"{path} holds no poses")
+    rows = np.array(rows)
+    return rows[:, 0], rows[:, 1:]
+
+
+def read_ply(path):
+    """Points of a binary little-endian PLY whose vertices are floats with x, y, z among them."""
+    data = pathlib.Path(path).read_bytes()
+    head, _, _ = data.partition(b"end_header\n")
+    lines = head.decode("ascii", errors="replace").splitlines()
+    if "format binary_little_endian 1.0" not in lines:
+        raise ReportError(f"{path} is not a binary little-endian PLY")
+    count = next(int(line.split()[2]) for line in lines if line.startswith("element vertex"))
+    names = [line.split()[2] for line in lines if line.startswith("property float")]
+    values = np.frombuffer(data, "<f4", count * len(names), len(head) + len(b"end_header\n"))
+    return values.reshape(count, len(names))[:, [names.index(axis) for axis in "xyz"]]
+
+
+def read_columns(path):
+    """Columns of a CSV file as arrays of numbers; columns with other texts stay lists."""
+    with pathlib.Path(path).open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    columns = {}
+    for name in rows[0] if rows else ():
+        texts = [row[name] for row in rows]
+        try:
+            columns[name] = np.array([float(text) if text else np.nan for text in texts])
+        except (TypeError, ValueError):
+            columns[name] = texts
+    return columns
+
+
+def read_json(path):
+    try:
+        return json.loads(pathlib.Path(path).read_text())
+    except FileNotFoundError as error:
+        raise ReportError(f"{path} is missing") from error
+    except ValueError as error:
+        raise ReportError(f"{path} is not JSON: {error}") from error
+
+
+@dataclasses.dataclass
+class Estimate:
+    """One trajectory that was evaluated: its figures, and its errors pose by pose."""
+    name: str
+    metrics: dict
+    errors: dict  # columns of errors_<name>.csv; empty when there are none
+
+    @property
+    def times(self):
+        return self.errors["t_s"]
+
+    @property
+    def positions(self):
+        return np.stack([self.errors[f"{axis}_m"] for axis in "xyz"], axis=1)
+
+    @property
+    def truth(self):
+        return np.stack([self.errors[f"{axis}_true_m"] for axis in "xyz"], axis=1)
+
+    @property
+    def diverged(self):
+        return bool(self.metrics.get("diverged"))
+
+
+def read_evaluation(folder):
+    """evaluation.json of a folder that trajlo_evaluate wrote, and its estimates."""
+    folder = pathlib.Path(folder)
+    document = read_json(folder / "evaluation.json")
+    estimates = []
+    for metrics in document.get("estimates", []):
+        table = folder / metrics["errors_csv"] if metrics.get("errors_csv") else None
+        errors = read_columns(table) if table and table.is_file() else {}
+        estimates.append(Estimate(metrics["name"], metrics, errors))
+    if not estimates:
+        raise ReportError(f"{folder / 'evaluation.json'} has no estimates")
+    return document, estimates

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// The command as a user calls it.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "core/io/trajectory_writer.h"
+#include "tests/core/evaluation/synthetic_poses.h"
+#include "tests/support/process.h"
+#include "tests/support/temp_folder.h"
+
+namespace trajlo::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+class TrajloEvaluateTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    WritePoses("truth.tum", SmoothPoses(0.0, 0.02, 1000));
+    WritePoses("good.tum", Disturbed(0.01));
+    WritePoses("worse.tum", Disturbed(0.2));
+    WritePoses("lost.tum", Disturbed(40.0));
+  }
+
+  /// Poses of the truth's motion, every other one off by this much in x.
+  static TimedPoses Disturbed(double error_m) {
+    TimedPoses poses = SmoothPoses(1.0, 0.1, 180);
+    for (std::size_t i = 0; i < poses.size(); i += 2) {
+      poses.T_world_body[i].translation().x() += error_m;
+    }
+    return poses;
+  }
+
+  std::string Path(const std::string& name) const { return (temp_ / name).string(); }
+
+  void WritePoses(const std::string& name, const TimedPoses& poses) const {
+    TumWriter writer(temp_ / name, IfExists::kReplace);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      writer.Append(poses.t_ns[i], SE3(Eigen::Quaterniond(poses.T_world_body[i].linear()),
+                                       poses.T_world_body[i].translation()));
+    }
+    writer.Close();
+  }
+
+  /// Names of files stand for those of the temporary folder.
+  Outcome Call(const std::vector<std::string>& arguments, rlim_t max_file_bytes = 0) const {
+    std::vector<std::string> command = {TRAJLO_EVALUATE};
+    for (const std::string& argument : arguments) {
+      command.push_back(argument.rfind("--", 0) == 0 ? argument : Path(argument));
+    }
+    const Process process(command, max_file_bytes);
+    const int exit_code = process.Wait();
+    return {exit_code, process.Out(), process.Err()};
+  }
+
+  std::string Output() const { return "--output=" + Path("out"); }
+  nlohmann::json Json() const {
+    return nlohmann::json::parse(ReadFile(temp_ / "out/evaluation.json"));
+  }
+
+  TempFolder temp_;
+};
+
+TEST_F(TrajloEvaluateTest, HelpTeachesByExample) {
+  const Outcome outcome = Call({"--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("trajlo_evaluate estimate.tum truth.tum"),
+                                 HasSubstr("--lever_arm="), Not(HasSubstr("tab_completion"))));
+  EXPECT_THAT(Call({"--version"}).out, HasSubstr("trajlo_evaluate "));
+}
+
+TEST_F(TrajloEvaluateTest, OneEstimateIsShownWithAllItsStatistics) {
+  const Outcome outcome = Call({"good.tum", "truth.tum"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  // Half of the poses are off by 10 mm: 5 mm around their mean.
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("ATE [m]         0.0050"), HasSubstr("RPE 1 m [deg]"),
+                                 HasSubstr("RPE 1 s [m]"), HasSubstr("ground truth interpolated"),
+                                 HasSubstr("180, 100.0 % of the poses"), HasSubstr("too short")));
+}
+
+TEST_F(TrajloEvaluateTest, SeveralEstimatesShareATableThatMarksTheBestAndTheDiverged) {
+  const Outcome outcome = Call({"worse.tum", "good.tum", "lost.tum", "--truth=" + Path("truth.tum"),
+                                "--names=peer,ours,third"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("0.005 *"), HasSubstr("0.100  "), HasSubstr("20.000 x"),
+                                 HasSubstr("x third: the absolute error of 20 m is above 10 %")));
+  EXPECT_LT(outcome.out.find("peer"), outcome.out.find("ours"));
+}
+
+TEST_F(TrajloEvaluateTest, ARunThatExplodedIsDivergedAndNotAnError) {
+  TimedPoses poses = Disturbed(0.0);
+  std::string text;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    text += std::to_string(Seconds(poses.t_ns[i])) + (i < 90 ? " 0 0 " : " 1e200 -1e180 ") +
+            std::to_string(i) + " 0 0 0 1\n";
+  }
+  WriteFile(temp_ / "exploded.tum", text);
+  const Outcome outcome = Call({"exploded.tum", "truth.tum", Output(), "--report=false"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("DIVERGED x  the absolute error is not finite"),
+                                 Not(HasSubstr("nan"))));
+  EXPECT_TRUE(Json()["estimates"][0]["ate"]["translation_m"]["rmse"].is_null());
+}
+
+TEST_F(TrajloEvaluateTest, TheOutputHoldsEveryNumber) {
+  const Outcome outcome =
+      Call({"good.tum", "lost.tum", "--truth=" + Path("truth.tum"), Output(), "--report=false"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json json = Json();
+  EXPECT_EQ(json["truth"]["poses"], 1000);
+  ASSERT_EQ(json["estimates"].size(), 2u);
+  const nlohmann::json& good = json["estimates"][0];
+  EXPECT_EQ(good["name"], "good");
+  EXPECT_EQ(good["diverged"], false);
+  EXPECT_EQ(good["pairs"], 180);
+  EXPECT_NEAR(good["ate"]["translation_m"]["rmse"].get<double>(), 0.005, 1e-4);
+  EXPECT_EQ(good["rpe"][2]["unit"], "s");
+  EXPECT_TRUE(good["kitti"].is_null());
+  EXPECT_THAT(good["kitti_reason"].get<std::string>(), HasSubstr("too short"));
+  EXPECT_EQ(good["alignment"]["T"].size(), 3u);
+  EXPECT_EQ(json["estimates"][1]["diverged"], true);
+  EXPECT_EQ(json["settings"]["association"]["rule"], "interpolate");
+  EXPECT_FALSE(json["versions"]["trajlo"].get<std::string>().empty());
+
+  const std::string errors = ReadFile(temp_ / "out" / good["errors_csv"].get<std::string>());
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 181);
+  EXPECT_THAT(errors, AllOf(::testing::StartsWith("t_s,x_m,y_m,z_m,qx,qy,qz,qw,x_true_m,"),
+                            HasSubstr("\n1.000000000,")));
+  EXPECT_THAT(ReadFile(temp_ / "out/evaluation.csv"), HasSubstr("ate_translation_rmse_m"));
+  EXPECT_THAT(ReadFile(temp_ / "out/evaluation.tex"),
+              AllOf(HasSubstr("good & 0.005"), HasSubstr("lost & $\\times$")));
+}
+
+TEST_F(TrajloEvaluateTest, NothingIsOverwrittenUnasked) {
+  ASSERT_EQ(Call({"good.tum", "truth.tum", Output(), "--report=false"}).exit_code, 0);
+  const std::string first = ReadFile(temp_ / "out/evaluation.json");
+  const Outcome outcome = Call({"worse.tum", "truth.tum", Output(), "--report=false"});
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_THAT(outcome.err, HasSubstr("--overwrite"));
+  EXPECT_EQ(ReadFile(temp_ / "out/evaluation.json"), first);
+  EXPECT_EQ(Call({"worse.tum", "truth.tum", Output(), "--report=false", "--overwrite"}).exit_code,
+            0);
+  EXPECT_FALSE(std::filesystem::exists(temp_ / "out/errors_good.csv"));
+  EXPECT_TRUE(std::filesystem::exists(temp_ / "out/errors_worse.csv"));
+  WriteFile(temp_ / "file", "");
+  EXPECT_EQ(Call({"good.tum", "truth.tum", "--output=" + Path("file")}).exit_code, 5);
+  EXPECT_EQ(Call({"good.tum", "truth.tum", "--output=/proc/none/out"}).exit_code, 5);
+}
+
+TEST_F(TrajloEvaluateTest, AFullDiskIsAnErrorAndLeavesNoCompleteLookingResult) {
+  const Outcome outcome = Call({"good.tum", "truth.tum", Output(), "--report=false"}, 5000);
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_THAT(outcome.err, HasSubstr("errors_good.csv"));
+  EXPECT_TRUE(std::filesystem::is_empty(temp_ / "out"));
+}
+
+TEST_F(TrajloEvaluateTest, AnEstimateThatCannotBeComparedDoesNotHideTheOthers) {
+  WriteFile(temp_ / "empty.tum", "");
+  const Outcome both =
+      Call({"good.tum", "empty.tum", "--truth=" + Path("truth.tum"), Output(), "--report=false"});
+  EXPECT_EQ(both.exit_code, 3);
+  EXPECT_THAT(both.err, HasSubstr("empty.tum: holds no poses"));
+  EXPECT_THAT(both.out, HasSubstr("x empty: "));
+  const nlohmann::json failed = Json()["estimates"][1];
+  EXPECT_EQ(failed["diverged"], true);
+  EXPECT_TRUE(failed["ate"].is_null());
+  const Outcome alone = Call({"empty.tum", "truth.tum", "--output=" + Path("other")});
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_EQ(alone.out, "");
+  EXPECT_FALSE(std::filesystem::exists(temp_ / "other"));
+  EXPECT_EQ(Call({"good.tum", "missing.tum"}).exit_code, 2);
+}
+
+TEST_F(TrajloEvaluateTest, NoOverlapNamesBothTimeSpansAndGivesNoNumbers) {
+  WritePoses("later.tum", SmoothPoses(1000.0, 0.1, 50));
+  const Outcome outcome = Call({"later.tum", "truth.tum"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1000.000 to 1004.900 s"), HasSubstr("0.000 to 19.980"),
+                                 HasSubstr("--time_offset_s=-1000.000")));
+}
+
+TEST_F(TrajloEvaluateTest, WrongUsageIsExplained) {
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"--rpe=10", "--rpe"},
+      {"--rpe=1.5f", "--rpe"},
+      {"--alignment=umeyama", "se3, sim3"},
+      {"--association=linear", "nearest"},
+      {"--align_first=-1", "--align_first"},
+      {"--lever_arm=1,2", "x,y,z"},
+      {"--T_body_truth=1,2,3", "qx,qy,qz,qw"},
+      {"--T_body_truth=0,0,0,0,0,0,9", "normalised"},
+      {"--names=a,b", "1 different names"},
+      {"--format=bag", "--format"},
+      {"--min_completeness=50", "--min_completeness"},
+  };
+  for (const auto& [flag, message] : wrong) {
+    const Outcome outcome = Call({"good.tum", "truth.tum", flag});
+    EXPECT_EQ(outcome.exit_code, 1) << flag;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << flag;
+  }
+  EXPECT_EQ(Call({"good.tum"}).exit_code, 1);
+  EXPECT_EQ(Call({"--truth=" + Path("truth.tum")}).exit_code, 1);
+  EXPECT_EQ(Call({"good.tum", "truth.tum", "--lever_arm=1,2,3", "--T_body_truth=1,2,3,0,0,0,1"})
+                .exit_code,
+            1);
+}
+
+TEST_F(TrajloEvaluateTest, APrismOnTheBodyIsReachedByItsLeverArm) {
+  TimedPoses prism = InFrame(SmoothPoses(0.0, 0.02, 1000),
+                             Eigen::Affine3d(Eigen::Translation3d(-0.3, 0.1, -0.25)));
+  for (Eigen::Affine3d& T : prism.T_world_body) T.linear().setIdentity();
+  WritePoses("prism.tum", prism);
+  const Outcome outcome = Call({"good.tum", "prism.tum", "--lever_arm=-0.3,0.1,-0.25"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("placeholders"));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("0.0050"), HasSubstr("dist. [m]"), Not(HasSubstr("[deg]"))));
+}
+
+TEST_F(TrajloEvaluateTest, KittiTruthOfAnotherFrameNeedsTimesAndAnExtrinsic) {
+  const Eigen::Affine3d T_body_camera =
+      Eigen::Translation3d(0.3, -0.2, 0.5) * Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
+  const TimedPoses camera = InFrame(SmoothPoses(0.0, 0.02, 1000), T_body_camera);
+  std::string times;
+  KittiWriter writer(temp_ / "camera.txt");
+  for (std::size_t i = 0; i < camera.size(); ++i) {
+    writer.Append(SE3(Eigen::Quaterniond(camera.T_world_body[i].linear()),
+                      camera.T_world_body[i].translation()));
+    times += std::to_string(Seconds(camera.t_ns[i])) + "\n";
+  }
+  writer.Close();
+  WriteFile(temp_ / "times.txt", times);
+  EXPECT_THAT(Call({"good.tum", "camera.txt"}).err, HasSubstr("--times"));
+  const std::string extrinsic = "--T_body_truth=0.3,-0.2,0.5,-0.5,0.5,-0.5,0.5";
+  const Outcome outcome =
+      Call({"good.tum", "camera.txt", "--times=" + Path("times.txt"), extrinsic});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("kitti, 1000 poses"), HasSubstr("0.0050")));
+  WriteFile(temp_ / "times.txt", "0\n1\n");
+  EXPECT_THAT(Call({"good.tum", "camera.txt", "--times=" + Path("times.txt")}).err,
+              HasSubstr("2 stamps"));
+}
+
+TEST_F(TrajloEvaluateTest, ATimeOffsetIsFoundAndReported) {
+  TimedPoses late = Disturbed(0.0);
+  for (std::int64_t& t_ns : late.t_ns) t_ns += 123'000'000;
+  WritePoses("late.tum", late);
+  const Outcome outcome =
+      Call({"late.tum", "truth.tum", "--estimate_time_offset", Output(), "--report=false"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("time offset -0.123"));
+  EXPECT_NEAR(Json()["estimates"][0]["time_offset_s"].get<double>(), -0.123, 1e-4);
+}
+
+TEST_F(TrajloEvaluateTest, TheScriptDrawsTheOutputAndMayBeMissing) {
+  setenv("TRAJLO_SCRIPTS", temp_.path().c_str(), 1);
+  const Outcome missing = Call({"good.tum", "truth.tum", Output()});
+  EXPECT_EQ(missing.exit_code, 0);
+  EXPECT_THAT(missing.err, HasSubstr("no figures"));
+  const auto write_script = [&](const std::string& text) {
+    WriteFile(temp_ / "draw_evaluation.py", "#!/bin/sh\n" + text);
+    std::filesystem::permissions(temp_ / "draw_evaluation.py", std::filesystem::perms::owner_all);
+  };
+  write_script("printf yes > \"$1/drawn\"\n");
+  const Outcome drawn = Call({"good.tum", "truth.tum", Output(), "--overwrite"});
+  EXPECT_EQ(drawn.exit_code, 0);
+  EXPECT_EQ(drawn.err, "");
+  EXPECT_EQ(ReadFile(temp_ / "out/drawn"), "yes");
+  write_script("echo nothing to draw with >&2\nexit 1\n");
+  const Outcome failed = Call({"good.tum", "truth.tum", Output(), "--overwrite"});
+  EXPECT_EQ(failed.exit_code, 0);
+  EXPECT_THAT(failed.err, AllOf(HasSubstr("nothing to draw with"), HasSubstr("no figures")));
+  EXPECT_EQ(Json()["estimates"].size(), 1u);
+  unsetenv("TRAJLO_SCRIPTS");
+}
+
+TEST_F(TrajloEvaluateTest, QuietPrintsNothingWhenAllIsWell) {
+  const Outcome outcome = Call({"good.tum", "truth.tum", "--quiet", Output(), "--report=false"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+}  // namespace
+}  // namespace trajlo::testing

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "core/comparison/lockstep_solver.h"
+
+#include <gtest/gtest.h>
+
+#include "core/comparison/lockstep_totals.h"
+#include "core/estimation/odometry.h"
+#include "tests/support/synthetic_world.h"
+
+namespace trajlo {
+namespace {
+
+using trajlo::testing::SyntheticWorld;
+
+SolverVariant Variant(const std::string& name, const std::string& settings) {
+  RunConfig config;
+  ApplyOverrides(settings, &config);
+  return {name, settings, config.odometry};
+}
+
+struct LockstepRun {
+  std::vector<LockstepRecord> records;
+  int windows = 0;
+  std::vector<ControlPose> poses;
+};
+
+LockstepRun Run(const std::vector<SolverVariant>& variants, int every) {
+  SyntheticWorld world;
+  LockstepRun run;
+  LockstepOptions options;
+  options.every = every;
+  LockstepSolver* lockstep = nullptr;
+  Odometry odometry({}, [&](const SolverOptions& solver, ThreadPool* threads) {
+    auto made = std::make_unique<LockstepSolver>(
+        variants, options, MakeWindowSolver(solver, threads), threads,
+        [&](const LockstepRecord& record) { run.records.push_back(record); });
+    lockstep = made.get();
+    return made;
+  });
+  odometry.OnWindow([&](const WindowStatistics&) {
+    ++run.windows;
+    lockstep->FinishWindow();
+  });
+  for (int i = 0; i < 8; ++i) odometry.AddScan(world.Sweep(i));
+  odometry.Finish();
+  run.poses = odometry.trajectory().poses();
+  return run;
+}
+
+TEST(Lockstep, AllSolversOfOneEnergyEndAtTheSamePosesAndCost) {
+  const std::vector<SolverVariant> variants = {
+      Variant("gauss_newton", "solver.kind=gauss_newton"), Variant("ceres", ""),
+      Variant("dogleg", "solver.ceres.trust_region=dogleg"),
+      Variant("point", "solver.ceres.registration=point")};
+  const LockstepRun run = Run(variants, 1);
+  ASSERT_GT(run.windows, 5);
+  ASSERT_EQ(run.records.size(), 4u * static_cast<std::size_t>(run.windows));
+  LockstepTotals ceres;
+  for (const LockstepRecord& record : run.records) {
+    EXPECT_LT(record.from_first.translation_m, 1e-6) << variants[record.variant].name;
+    EXPECT_LT(record.from_first.rotation_rad, 1e-6);
+    EXPECT_LE(record.cost_after.Total(), record.cost_before.Total() * (1.0 + 1e-12));
+    EXPECT_FALSE(record.summary.costs.empty());
+    if (record.variant == 1) ceres.Add(record);
+  }
+  EXPECT_EQ(ceres.windows(), run.windows);
+  EXPECT_GT(ceres.StepsPerWindow(), 0.5);
+  EXPECT_LT(ceres.MaxDistance_m(), 1e-6);
+}
+
+TEST(Lockstep, DoesNotChangeTheRunAndComparesEveryNthWindow) {
+  const LockstepRun all = Run({Variant("gauss_newton", "solver.kind=gauss_newton")}, 1);
+  const LockstepRun some = Run({Variant("tukey", "weights.kernel=tukey")}, 3);
+  EXPECT_EQ(some.records.size(), static_cast<std::size_t>((some.windows + 2) / 3));
+  ASSERT_EQ(all.poses.size(), some.poses.size());
+  for (std::size_t i = 0; i < all.poses.size(); ++i) {
+    EXPECT_EQ(all.poses[i].T_world_body.t, some.poses[i].T_world_body.t);
+  }
+}
+
+}  // namespace
+}  // namespace trajlo

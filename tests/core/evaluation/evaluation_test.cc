@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "core/evaluation/evaluation.h"
+
+#include <gmock/gmock.h>
+
+#include "core/evaluation/evaluation_error.h"
+#include "tests/core/evaluation/synthetic_poses.h"
+
+namespace trajlo::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Evaluation, APerfectEstimateHasNoErrors) {
+  EvaluationOptions options;
+  options.relative = {{1.0, DeltaUnit::kMetres}, {1.0, DeltaUnit::kSeconds}};
+  const Evaluation e = Evaluate(SmoothPoses(1.0, 0.1, 100), SmoothPoses(0.0, 0.05, 400), options);
+  EXPECT_EQ(e.pairs.size(), 100u);
+  EXPECT_LT(e.absolute.full.max, 1e-6);
+  EXPECT_LT(e.relative[0].statistics.full.max, 1e-6);
+  EXPECT_GT(e.relative[1].pieces, 80u);
+  EXPECT_NEAR(e.duration_s, 9.9, 1e-9);
+  EXPECT_NEAR(e.completeness, 9.9 / 20.0, 0.01);
+  EXPECT_EQ(e.paired_share, 1.0);
+  EXPECT_THAT(e.divergence_reason, HasSubstr("covers"));
+}
+
+TEST(Evaluation, AnExtrinsicTakesBodyPosesToTheFrameOfTheTruth) {
+  const Eigen::Affine3d T_body_truth =
+      Eigen::Translation3d(0.3, -0.2, 0.5) * Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitX());
+  TimedPoses truth = SmoothPoses(0.0, 0.05, 200);
+  EvaluationOptions options;
+  const TimedPoses estimate = truth;
+  truth = InFrame(truth, T_body_truth);
+  EXPECT_GT(Evaluate(estimate, truth, options).absolute.translation_m.rmse, 0.1);
+  options.T_body_truth = T_body_truth;
+  EXPECT_LT(Evaluate(estimate, truth, options).absolute.full.rmse, 1e-6);
+}
+
+TEST(Evaluation, KittiErrorsOfAScaleErrorAreThatError) {
+  TimedPoses truth, estimate;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Translation3d place(2.0 * i, 0.0, 0.0);
+    truth.T_world_body.emplace_back(
+        place * Eigen::AngleAxisd(1e-3, Eigen::Vector3d::UnitX()));  // Not a placeholder.
+    estimate.T_world_body.push_back(truth.T_world_body.back());
+    estimate.T_world_body.back().translation() *= 1.01;
+  }
+  EvaluationOptions options;
+  options.alignment.kind = AlignmentKind::kNone;
+  const Evaluation e = Evaluate(estimate, truth, options);
+  ASSERT_TRUE(e.kitti);
+  // The last frame is the first one beyond the length: up to 2 m, 2 % of 100 m, more.
+  EXPECT_NEAR(e.kitti->translation_percent, 1.0, 0.02);
+  EXPECT_NEAR(e.kitti->rotation_deg_per_m, 0.0, 1e-9);
+  EXPECT_EQ(e.kitti->per_length[7].segments, 60u);
+  options.alignment.first_seconds = 5.0;
+  EXPECT_THROW(Evaluate(estimate, truth, options), EvaluationError);
+}
+
+TEST(Evaluation, TheFirstPoseCannotBeAlignedToAPrism) {
+  TimedPoses truth = SmoothPoses(0.0, 0.05, 100);
+  for (Eigen::Affine3d& T : truth.T_world_body) T.linear().setIdentity();
+  EvaluationOptions options;
+  options.alignment.kind = AlignmentKind::kOrigin;
+  EXPECT_THROW(Evaluate(SmoothPoses(0.0, 0.1, 50), truth, options), EvaluationError);
+  options.truth_orientation = TruthOrientation::kUse;
+  EXPECT_TRUE(Evaluate(SmoothPoses(0.0, 0.1, 50), truth, options).has_orientation);
+}
+
+TEST(TimeOffset, OfTwoClocksIsFound) {
+  for (const double clock_s : {0.137, -0.4321}) {
+    const TimedPoses estimate = SmoothPoses(2.0, 0.1, 100, clock_s);
+    EvaluationOptions options;
+    options.estimate_time_offset = true;
+    const Evaluation e = Evaluate(estimate, SmoothPoses(0.0, 0.01, 2000), options);
+    EXPECT_NEAR(e.time_offset_s, -clock_s, 1e-4);
+    EXPECT_LT(e.absolute.translation_m.rmse, 1e-3);
+    EXPECT_GT(e.estimated_time_offset->rmse_around_m, 0.1);
+    EXPECT_THAT(e.warnings, ::testing::IsEmpty());
+  }
+}
+
+TEST(TimeOffset, AtTheEndOfTheRangeIsNotBelieved) {
+  EvaluationOptions options;
+  options.estimate_time_offset = true;
+  options.time_offset_reach_s = 0.1;
+  const Evaluation e =
+      Evaluate(SmoothPoses(2.0, 0.1, 100, 0.3), SmoothPoses(0.0, 0.01, 2000), options);
+  EXPECT_THAT(e.warnings, ::testing::Contains(HasSubstr("end of the range")));
+  options.time_offset_s = -0.25;
+  EXPECT_NEAR(Evaluate(SmoothPoses(2.0, 0.1, 100, 0.3), SmoothPoses(0.0, 0.01, 2000), options)
+                  .time_offset_s,
+              -0.3, 1e-4);
+}
+
+TEST(TimeOffset, OfUniformMotionIsUnknown) {
+  TimedPoses truth, estimate;
+  for (int i = 0; i < 3000; ++i) {
+    // Uniform on a circle: the alignment undoes any offset.
+    const double angle = 0.01 * i;
+    truth.t_ns.push_back(Nanoseconds(0.01 * i));
+    truth.T_world_body.emplace_back(
+        Eigen::Translation3d(std::cos(angle), std::sin(angle), 0.01 * (i % 2)));
+    if (i < 500 || i > 2500 || i % 10 != 0) continue;
+    estimate.t_ns.push_back(truth.t_ns.back());
+    estimate.T_world_body.push_back(truth.T_world_body.back());
+    estimate.T_world_body.back().translation().z() += 0.2 * ((i / 10) % 2);
+  }
+  const TimeOffset offset = EstimateTimeOffset(estimate, truth, {});
+  EXPECT_THAT(offset.warning, HasSubstr("hardly depends"));
+}
+
+TEST(Divergence, FollowsItsRules) {
+  const DivergenceOptions rules;
+  const auto reason = [&](double rmse, double path_m, double completeness) {
+    return DivergenceReason(ComputeStatistics({rmse}), path_m, completeness, rules);
+  };
+  EXPECT_EQ(reason(1.0, 20.0, 0.9), "");
+  EXPECT_THAT(reason(2.1, 20.0, 0.9), HasSubstr("10 % of the path"));
+  EXPECT_EQ(reason(0.4, 1.0, 0.9), "");  // Hardly moved.
+  EXPECT_THAT(reason(0.1, 20.0, 0.49), HasSubstr("49.0 %"));
+  EXPECT_THAT(reason(1e200, 1e300, 1.0), HasSubstr("not finite"));
+  DivergenceOptions absolute;
+  absolute.ate_m = 5.0;
+  EXPECT_THAT(DivergenceReason(ComputeStatistics({6.0}), 1000.0, 1.0, absolute),
+              HasSubstr("above 5 m"));
+  EXPECT_THAT(DivergenceRule(absolute), HasSubstr("above 5 m"));
+}
+
+}  // namespace
+}  // namespace trajlo::testing

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the scripts share: import paths, temporary folders, little suites, programs
+that only pretend."""
+import os
+import pathlib
+import re
+import stat
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
+sys.path.insert(0, str(SCRIPTS))
+
+# Shows its options like trajlo_run; {digest} makes builds differ.
+PRETENDED_RUN = """#!/bin/sh
+# {digest}
+for argument in "$@"; do
+  case "$argument" in
+    --version) echo "trajlo_run 0.1.0 ({digest})"; exit 0 ;;
+    --set=*bad*) echo "bad: there is no such option" >&2; exit 1 ;;
+    --set=*) set="${{argument#--set=}}" ;;
+  esac
+done
+echo "window:"
+echo "  segments: 4  # $set"
+"""
+PRETENDED = "#!/bin/sh\necho '{name} 0.1.0'\n"
+
+
+class FolderTest(unittest.TestCase):
+    """A test with a folder of its own, `self.folder`, that is deleted afterwards."""
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="trajlo_scripts_")
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def pretend_build(self, digest="first"):
+        """A build folder whose programs show options and versions, and do nothing else."""
+        for name in ("trajlo_simulate", "trajlo_evaluate"):
+            self.executable(f"build/apps/{name}", PRETENDED.format(name=name))
+        self.executable("build/apps/trajlo_run", PRETENDED_RUN.format(digest=digest))
+        return self.folder / "build"
+
+    def executable(self, name, text):
+        path = self.write(name, text)
+        path.chmod(path.stat().st_mode | stat.S_IXUSR)
+        return path
+
+    def assert_self_contained(self, page):
+        """Nothing in a page is fetched from anywhere: neither from the net nor from files."""
+        text = pathlib.Path(page).read_text()
+        bare = re.sub(r"base64,[A-Za-z0-9+/=]+", "base64,", text)
+        addresses = re.findall(r"""(?:src|href|srcset|data|action)\s*=\s*["']?([^"'\s>]+)""", bare)
+        outside = [address for address in addresses if not address.startswith(("data:", "#"))]
+        self.assertEqual(outside, [])
+        self.assertNotRegex(bare, r"(?:https?|file)://|@import|url\((?!data:)")
+        self.assertIn("</html>", text)
+
+
+def built(name):
+    """A program of the build that is tested; the test is skipped where it is not built."""
+    build = pathlib.Path(os.environ.get("TRAJLO_BUILD_DIR", ROOT / "build"))
+    program = build / "apps" / name
+    if not program.is_file():
+        raise unittest.SkipTest(f"{program} is not built")
+    return program.resolve()

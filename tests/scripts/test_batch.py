@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: MIT
+"""Whole batches of short simulated recordings: they end, survive their killing, and go on."""
+import csv
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+from support import SCRIPTS, FolderTest, built
+
+SUITE = """
+title: Two short flights
+defaults: {duration_s: 3, seeds: [1, 2]}
+sequences:
+  - simulate: hall_os1_16
+configurations:
+  - name: plain
+"""
+FAILING = """
+  - name: impossible
+    set: {input.stamps_file: there_is_no_such_file.txt}
+  - name: crashing
+    set: {window.segments: 2}
+"""
+# Stands before the real program and crashes where the test wants it.
+CRASHING = """#!/bin/sh
+case "$*" in
+  *--show_config*|*--version*) ;;
+  *window.segments=2*) kill -SEGV $$ ;;
+  *) {wait} ;;
+esac
+exec {program} "$@"
+"""
+
+
+def processes_with(text):
+    """Numbers of the processes that have this text in their command line."""
+    found = []
+    for entry in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            command = (entry / "cmdline").read_bytes().decode(errors="replace")
+        except OSError:
+            continue
+        if text in command and int(entry.name) != os.getpid():
+            found.append(int(entry.name))
+    return found
+
+
+class BatchTest(FolderTest):
+    def setUp(self):
+        super().setUp()
+        self.output = self.folder / "out"
+        self.prepare_build()
+
+    def prepare_build(self, wait=":"):
+        apps = self.folder / "build" / "apps"
+        apps.mkdir(parents=True, exist_ok=True)
+        for name in ("trajlo_simulate", "trajlo_evaluate"):
+            if not (apps / name).exists():
+                (apps / name).symlink_to(built(name))
+        self.executable("build/apps/trajlo_run",
+                        CRASHING.format(wait=wait, program=built("trajlo_run")))
+
+    def command(self, suite, *arguments):
+        return [SCRIPTS / "batch", self.write("short.yaml", suite), "--output", self.output,
+                "--build", self.folder / "build", *arguments]
+
+    def batch(self, suite, *arguments):
+        done = subprocess.run(self.command(suite, *arguments), capture_output=True, text=True,
+                              check=False)
+        log = self.output / "snakemake.log"
+        done.log = done.stdout + done.stderr + (log.read_text() if log.is_file() else "")
+        return done
+
+    def statuses(self):
+        return {path.parent.name + "/" + path.parent.parent.name: json.loads(path.read_text())
+                for path in self.output.glob("*/*/status.json")}
+
+    def rows(self):
+        with (self.output / "results.csv").open() as file:
+            return list(csv.DictReader(file))
+
+    def test_a_killed_batch_goes_on_and_does_not_repeat_what_is_done(self):
+        self.prepare_build(wait="sleep 1")
+        process = subprocess.Popen(self.command(SUITE, "-j", "1"), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 120
+        while not self.statuses() and time.monotonic() < deadline and process.poll() is None:
+            time.sleep(0.02)
+        os.kill(process.pid, signal.SIGKILL)
+        process.wait()
+        before = self.statuses()
+        self.assertEqual(len(before), 1, "the batch was to be killed between its two runs")
+        # Its jobs die with it: nothing is left that would write into what the next batch does.
+        deadline = time.monotonic() + 10
+        while processes_with(str(self.output)) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        self.assertEqual(processes_with(str(self.output)), [])
+        self.assertEqual(self.statuses(), before)
+
+        done = self.batch(SUITE, "-j", "2")
+        self.assertEqual(done.returncode, 0, done.log)
+        after = self.statuses()
+        self.assertEqual(len(after), 2)
+        for name, status in before.items():
+            self.assertEqual(after[name], status)
+        self.assertEqual([row["result"] for row in self.rows()], ["ok", "ok"])
+        self.assertTrue(all(0 < float(row["ate_rmse_m"]) < 0.5 for row in self.rows()))
+        self.assert_self_contained(self.output / "report.html")
+
+        self.assertEqual(self.batch(SUITE).returncode, 0)
+        self.assertEqual(self.statuses(), after)
+
+        changed = self.batch(SUITE + "    set: {window.segments: 3}\n")
+        self.assertEqual(changed.returncode, 0, changed.log)
+        self.assertEqual(len(list((self.output / "replaced" / "plain").iterdir())), 2)
+        self.assertNotEqual(self.statuses(), after)
+
+    def test_runs_that_fail_are_an_x_and_the_batch_goes_on(self):
+        done = self.batch(SUITE.replace("[1, 2]", "[1]") + FAILING, "--drop-recordings")
+        self.assertEqual(done.returncode, 3, done.log)
+        rows = {row["configuration"]: row for row in self.rows()}
+        self.assertEqual({name: row["result"] for name, row in rows.items()},
+                         {"plain": "ok", "impossible": "x", "crashing": "x"})
+        self.assertEqual(rows["impossible"]["exit_code"], "2")
+        self.assertIn("there_is_no_such_file.txt", rows["impossible"]["reason"])
+        self.assertEqual(rows["crashing"]["exit_code"], str(-signal.SIGSEGV))
+        self.assertIn("crashed: SIGSEGV", rows["crashing"]["reason"])
+        table = (self.output / "table.md").read_text()
+        self.assertEqual(table.splitlines()[4].count(" x "), 2)
+        self.assert_self_contained(self.output / "report.html")
+
+        # The recording went with its last run; the printed command makes it again.
+        self.assertFalse((self.output / "recordings" / "hall_os1_16-seed1").exists())
+        command = rows["plain"]["command"]
+        repeated = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True,
+                                  text=True, check=False)
+        self.assertEqual(repeated.returncode, 0, repeated.stderr)
+        again = self.folder / "hall_os1_16-seed1-again" / "trajectory.tum"
+        first = self.output / "plain" / "hall_os1_16-seed1" / "result" / "trajectory.tum"
+        self.assertEqual(again.read_bytes(), first.read_bytes())
+
+    def test_two_batches_cannot_work_in_one_folder(self):
+        self.prepare_build(wait="sleep 2")
+        process = subprocess.Popen(self.command(SUITE), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        deadline = time.monotonic() + 60
+        while not (self.output / "jobs.json").is_file() and time.monotonic() < deadline:
+            time.sleep(0.02)
+        done = self.batch(SUITE)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("another batch is at work", done.stderr)
+
+    def test_an_interrupted_batch_ends_at_once_and_says_how_to_go_on(self):
+        self.prepare_build(wait="sleep 60")
+        process = subprocess.Popen(self.command(SUITE), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 120
+        while not processes_with("sleep\x0060") and time.monotonic() < deadline:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("goes on where this one stopped", errors)
+        self.assertEqual(self.statuses(), {})
+
+
+if __name__ == "__main__":
+    unittest.main()

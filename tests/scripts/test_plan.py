@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: MIT
+"""A plan knows what is done, what has changed, and never overwrites a result."""
+import dataclasses
+import json
+import unittest
+
+from support import FolderTest
+
+from trajlo_batch import plan, results
+from trajlo_batch.places import Places
+from trajlo_batch.progress import ProgressBar
+from trajlo_batch.suite import read_suite
+from trajlo_batch.yaml_lines import SuiteError
+
+SUITE = """
+sequences:
+  - simulate: hall_os1_16
+configurations:
+  - name: plain
+  - name: varied
+    set: {window.segments: 3}
+"""
+
+
+class PlannedTest(FolderTest):
+    def setUp(self):
+        super().setUp()
+        self.places = Places(self.pretend_build(), self.folder / "data", self.folder / "out")
+
+    def plan(self, text=SUITE, **options):
+        return plan.make_plan(read_suite(self.write("s.yaml", text)), self.places, **options)
+
+    def finish(self, batch, exit_code=0):
+        """As if all runs of a plan had ended."""
+        plan.write_plan(batch, keep_recordings=True)
+        for run in batch.runs:
+            (self.places.output / run.folder / "status.json").write_text(json.dumps(
+                {"depends_on": run.job["depends_on"], "exit_code": exit_code, "reason": "ok"}))
+
+
+class PlanTest(PlannedTest):
+    def states(self, batch):
+        return [run.state for run in batch.runs]
+
+    def test_at_first_everything_is_missing_then_everything_is_done(self):
+        batch = self.plan()
+        self.assertEqual(self.states(batch), ["missing", "missing"])
+        self.finish(batch)
+        self.assertEqual(self.states(self.plan()), ["done", "done"])
+
+    def test_only_the_run_whose_options_changed_is_done_again(self):
+        self.finish(self.plan())
+        batch = self.plan(SUITE.replace("segments: 3", "segments: 5"))
+        self.assertEqual([(run.state, run.changes) for run in batch.runs],
+                         [("done", ()), ("changed", ("options",))])
+
+    def test_a_rebuilt_program_changes_all_runs_unless_any_version_will_do(self):
+        self.finish(self.plan())
+        self.pretend_build("second")
+        self.assertEqual([run.changes for run in self.plan().runs], [("program",), ("program",)])
+        self.assertEqual(self.states(self.plan(any_version=True)), ["done", "done"])
+
+    def test_another_seed_is_another_recording(self):
+        batch = self.plan()
+        self.finish(batch)
+        other = self.plan(SUITE.replace("hall_os1_16", "hall_os1_16\n    duration_s: 5"))
+        self.assertEqual([run.changes for run in other.runs], [("recording",), ("recording",)])
+
+    def test_a_changed_result_is_moved_and_not_overwritten(self):
+        self.finish(self.plan())
+        kept = self.places.output / "varied" / "hall_os1_16-seed1" / "result.txt"
+        kept.write_text("worth keeping")
+        batch = self.plan(SUITE.replace("segments: 3", "segments: 5"))
+        plan.write_plan(batch, keep_recordings=True)
+        moved = self.places.output / "replaced" / "varied" / "hall_os1_16-seed1.1" / "result.txt"
+        self.assertEqual(moved.read_text(), "worth keeping")
+        self.assertFalse(kept.exists())
+
+    def test_a_second_change_does_not_take_the_place_of_the_first(self):
+        for segments in (3, 5, 6):
+            self.finish(self.plan(SUITE.replace("segments: 3", f"segments: {segments}")))
+        names = sorted(path.name for path in
+                       (self.places.output / "replaced" / "varied").iterdir())
+        self.assertEqual(names, ["hall_os1_16-seed1.1", "hall_os1_16-seed1.2"])
+
+    def test_planning_again_touches_no_file(self):
+        self.finish(self.plan())
+
+        def times():
+            return {str(path): path.stat().st_mtime_ns for path in
+                    self.places.output.rglob("*job.json")}
+
+        before = times()
+        self.finish(self.plan())
+        self.assertEqual(times(), before)
+        self.assertEqual(len(before), 4)
+
+    def test_failed_runs_are_tried_again_on_request_only(self):
+        self.finish(self.plan(), exit_code=4)
+        self.assertEqual(self.states(self.plan()), ["done", "done"])
+        self.assertEqual(self.states(self.plan(retry=True)), ["changed", "changed"])
+
+    def test_an_option_that_does_not_exist_ends_the_batch_before_it_begins(self):
+        with self.assertRaisesRegex(SuiteError, "varied.*no such option"):
+            self.plan(SUITE.replace("window.segments", "bad"))
+
+    def test_missing_data_are_named(self):
+        batch = self.plan("sequences:\n  - {name: one, recording: a.bag, truth: a.tum}\n"
+                          "configurations:\n  - name: plain\n")
+        self.assertEqual(batch.runs, [])
+        self.assertEqual(batch.missing, {"one": [str(self.folder / "data" / "a.bag"),
+                                                 str(self.folder / "data" / "a.tum")]})
+
+    def test_a_program_that_is_not_built_is_named(self):
+        (self.places.build / "apps" / "trajlo_evaluate").unlink()
+        with self.assertRaisesRegex(SuiteError, "trajlo_evaluate is missing; build it"):
+            self.plan()
+
+
+class ResultsTest(PlannedTest):
+    def test_a_crash_is_an_x_with_its_reason(self):
+        batch = self.plan()
+        self.finish(batch, exit_code=-11)
+        row = results.collect(batch)[0]
+        self.assertEqual((row["result"], row["exit_code"]), ("x", -11))
+
+    def test_an_evaluated_run_has_its_metrics_and_a_diverged_one_an_x(self):
+        batch = self.plan()
+        self.finish(batch)
+        for run, diverged in zip(batch.runs, (False, True)):
+            folder = self.places.output / run.folder
+            (folder / "evaluation").mkdir()
+            (folder / "evaluation_status.json").write_text('{"exit_code": 0, "reason": ""}')
+            (folder / "evaluation" / "evaluation.json").write_text(json.dumps({"estimates": [{
+                "diverged": diverged, "divergence_reason": "too far" if diverged else "",
+                "ate": {"translation_m": {"rmse": 0.25}}}]}))
+        good, bad = results.collect(batch)
+        self.assertEqual((good["result"], good["ate_rmse_m"]), ("ok", 0.25))
+        self.assertEqual((bad["result"], bad["reason"]), ("x", "too far"))
+
+    def test_rows_name_the_options_that_vary(self):
+        batch = self.plan()
+        batch.runs[1] = dataclasses.replace(batch.runs[1], options="window: {segments: 3}")
+        self.assertEqual([row["window.segments"] for row in results.collect(batch)], [4, 3])
+
+    def test_csv_has_a_line_a_run(self):
+        lines = results.to_csv(results.collect(self.plan())).splitlines()
+        self.assertEqual(len(lines), 3)
+        self.assertTrue(lines[0].startswith("suite,configuration,sequence,group,seed,degenerate,"))
+
+
+class ProgressTest(unittest.TestCase):
+    def test_the_bar_says_what_is_done_and_when_the_rest_will_be(self):
+        bar = ProgressBar(total=10, already=2, stream=open("/dev/null", "w"))
+        self.addCleanup(bar.stream.close)
+        line = bar.line(done=6, failed=1, complete=2, elapsed=60, width=80)
+        self.assertIn("6/10 runs, 1 x, 1:00, 1:00 left", line)
+        self.assertLessEqual(len(line), 80)
+        self.assertFalse(bar.shown)
+
+    def test_when_all_runs_have_ended_the_bar_counts_those_that_are_complete(self):
+        bar = ProgressBar(total=10, already=0, stream=open("/dev/null", "w"))
+        self.addCleanup(bar.stream.close)
+        line = bar.line(done=10, failed=0, complete=6, elapsed=60, width=80)
+        self.assertIn("10/10 runs, 0 x, 1:00, 6 of them complete", line)
+
+
+if __name__ == "__main__":
+    unittest.main()

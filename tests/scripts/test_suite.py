@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: MIT
+"""Suites are read strictly, and those of the project are well-formed."""
+import unittest
+
+from support import ROOT, FolderTest
+
+from trajlo_batch.suite import read_suite
+from trajlo_batch.yaml_lines import SuiteError
+
+SMALL = """
+sequences:
+  - simulate: hall_os1_16
+    seeds: [1, 2]
+    set: {window.segments: 3}
+configurations:
+  - name: plain
+"""
+
+
+class SuiteTest(FolderTest):
+    def read(self, text):
+        return read_suite(self.write("small.yaml", text))
+
+    def refuse(self, text, *parts):
+        with self.assertRaises(SuiteError) as caught:
+            self.read(text)
+        for part in parts:
+            self.assertIn(part, str(caught.exception))
+
+    def test_each_seed_is_a_sequence_of_the_same_group(self):
+        suite = self.read(SMALL)
+        self.assertEqual([(item.name, item.group, item.seed) for item in suite.sequences],
+                         [("hall_os1_16-seed1", "hall_os1_16", 1),
+                          ("hall_os1_16-seed2", "hall_os1_16", 2)])
+
+    def test_a_sequence_overrides_the_defaults(self):
+        suite = self.read("defaults: {set: {window.segments: 4, threads: 1}}\n" + SMALL)
+        self.assertEqual(suite.sequences[0].settings, {"window.segments": "3", "threads": "1"})
+
+    def test_settings_are_written_as_options_are(self):
+        suite = self.read(SMALL + "    set: {a.b: true, c.d: 0.01, e.f: none}\n")
+        self.assertEqual(suite.configurations[0].settings,
+                         {"a.b": "true", "c.d": "0.01", "e.f": "none"})
+
+    def test_the_name_of_a_sequence_is_filled_into_its_files(self):
+        suite = self.read("defaults: {recording: 'kitti/{name}', truth: 'poses/{name}.txt'}\n"
+                          "sequences:\n  - name: \"00\"\nconfigurations:\n  - name: plain\n")
+        self.assertEqual(suite.sequences[0].recording, ("kitti/00",))
+        self.assertEqual(suite.sequences[0].truth, "poses/00.txt")
+
+    def test_a_configuration_can_be_for_some_sequences_only(self):
+        suite = self.read(SMALL.replace("    seeds", "  - simulate: hall_os1_16x2\n    seeds")
+                          + "    only: '*x2'\n")
+        plain = suite.configurations[0]
+        self.assertEqual([item.name for item in suite.sequences if plain.takes(item)],
+                         ["hall_os1_16x2-seed1", "hall_os1_16x2-seed2"])
+
+    def test_an_unknown_key_names_its_line_and_the_nearest_key(self):
+        self.refuse(SMALL.replace("seeds", "seed"), "small.yaml:4", "seed", "mean seeds?")
+
+    def test_a_wrong_type_is_refused(self):
+        self.refuse("threads: many\n" + SMALL, "small.yaml:1", "threads", "a whole number")
+        self.refuse("threads: true\n" + SMALL, "small.yaml:1", "a whole number")
+
+    def test_a_name_that_yaml_takes_for_a_number_is_refused(self):
+        self.refuse("sequences:\n  - name: 00\n    recording: a\nconfigurations:\n  - name: b\n",
+                    "small.yaml:2", "name must be a text")
+
+    def test_names_cannot_leave_the_folder_of_the_batch(self):
+        self.refuse(SMALL.replace("plain", "../plain"), "small.yaml:7", "name of a folder")
+
+    def test_a_pattern_that_matches_nothing_is_refused(self):
+        self.refuse(SMALL + "    only: '*x2'\n", "plain", "matches no sequence")
+
+    def test_a_configuration_that_stands_there_twice_is_refused(self):
+        self.refuse(SMALL + "  - name: plain\n", "plain", "twice")
+
+    def test_a_key_that_stands_there_twice_is_refused(self):
+        self.refuse(SMALL + "configurations: []\n", "small.yaml:8", "twice")
+
+    def test_a_seed_of_zero_is_refused_because_the_simulator_reads_it_as_none(self):
+        self.refuse(SMALL.replace("[1, 2]", "[0]"), "seed", "from 1 on")
+
+    def test_the_suites_of_the_project_are_well_formed(self):
+        suites = sorted((ROOT / "config" / "suites").glob("*.yaml"))
+        self.assertGreaterEqual(len(suites), 6)
+        for path in suites:
+            with self.subTest(path.name):
+                suite = read_suite(path)
+                for published in suite.published:
+                    self.assertTrue((ROOT / published).is_file(), published)
+                for file in (file for item in (*suite.sequences, *suite.configurations)
+                             for file in item.config if "{data}" not in file):
+                    self.assertTrue((ROOT / file).is_file(), file)
+
+    def test_the_simulation_suite_has_a_dozen_scenarios_with_three_seeds(self):
+        suite = read_suite(ROOT / "config" / "suites" / "simulation.yaml")
+        groups = {item.group for item in suite.sequences}
+        self.assertGreaterEqual(len(groups), 12)
+        self.assertEqual(len(suite.sequences), 3 * len(groups))
+        self.assertTrue(any(item.degenerate for item in suite.sequences))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""Tables mark the best as the paper does, and say what failed."""
+import pathlib
+import unittest
+
+from support import ROOT, FolderTest
+
+from trajlo_batch import table_formats, tables
+from trajlo_batch.published import read_published
+from trajlo_batch.suite import Configuration, Sequence, Suite
+from trajlo_batch.yaml_lines import SuiteError
+
+PUBLISHED = ROOT / "config" / "published"
+
+
+def make_suite(configurations=("ours",), groups=("eee_01",), **options):
+    return Suite(name="s", file=pathlib.Path("s.yaml"), title="A suite", description="", needs="",
+                 sequences=tuple(Sequence(name=group, group=group) for group in groups),
+                 configurations=tuple(Configuration(name, name, sensors="L1")
+                                      for name in configurations),
+                 published=(), **options)
+
+
+def row(configuration, group, value, result="ok", sequence=None):
+    return {"configuration": configuration, "group": group, "sequence": sequence or group,
+            "ate_rmse_m": value, "kitti_translation_percent": value, "result": result,
+            "reason": result, "folder": f"{configuration}/{sequence or group}"}
+
+
+class PublishedTest(FolderTest):
+    def test_the_tables_of_the_paper_are_complete(self):
+        sizes = {path.stem: (len(table.rows), len(table.columns)) for path in
+                 PUBLISHED.glob("*.yaml") for table in [read_published(path)]}
+        self.assertEqual(sizes, {"traj_lo_kitti": (4, 13), "traj_lo_ntu_viral": (10, 18),
+                                 "traj_lo_hilti2021": (14, 6)})
+
+    def test_some_printed_values(self):
+        def value(file, approach, sensors, column):
+            table = read_published(PUBLISHED / f"{file}.yaml")
+            values, = (values for name, _, found, values in table.rows
+                       if (name, found) == (approach, sensors))
+            return values[table.columns.index(column)]
+
+        self.assertEqual(value("traj_lo_kitti", "Traj-LO", "", "Online"), "0.58")
+        self.assertEqual(value("traj_lo_ntu_viral", "Traj-LO", "L1", "spms_02"), "x")
+        self.assertEqual(value("traj_lo_ntu_viral", "SLICT", "L1+L2+I", "spms_02"), "0.10")
+        self.assertEqual(value("traj_lo_hilti2021", "Traj-LO", "L1+L2", "Cons2"), "0.063")
+        self.assertEqual(value("traj_lo_hilti2021", "LIO-SAM", "", "RPG"), "-")
+
+    def test_a_row_with_a_value_too_few_is_refused(self):
+        text = (PUBLISHED / "traj_lo_hilti2021.yaml").read_text().replace('"2.775", ', "", 1)
+        with self.assertRaisesRegex(SuiteError, "6 values are needed"):
+            read_published(self.write("short.yaml", text))
+
+
+class ComparedTableTest(unittest.TestCase):
+    def table(self, value, result="ok", columns=("eee_01",)):
+        published = read_published(PUBLISHED / "traj_lo_ntu_viral.yaml")
+        suite = make_suite(groups=columns)
+        return tables.compared_table(suite, [row("ours", columns[0], value, result)], published)
+
+    def cell(self, table, label, sensors, column="eee_01"):
+        line, = (line for line in table.lines if (line.label, line.sensors) == (label, sensors))
+        return line.cells[table.columns.index(column)]
+
+    def test_without_us_the_best_are_those_of_the_paper(self):
+        table = self.table(None, "x")
+        self.assertTrue(self.cell(table, "FAST-LIO", "L1+I").best)
+        self.assertTrue(self.cell(table, "FAST-LIO", "L1+I").category_best)
+        ours = self.cell(table, "Traj-LO", "L1+L2")
+        self.assertEqual((ours.best, ours.category_best), (False, True))
+
+    def test_a_better_result_takes_the_marks(self):
+        table = self.table(0.0281)
+        self.assertEqual(self.cell(table, "ours", "L1").text, "0.028")
+        self.assertTrue(self.cell(table, "ours", "L1").best)
+        self.assertFalse(self.cell(table, "FAST-LIO", "L1+I").best)
+        self.assertTrue(self.cell(table, "FAST-LIO", "L1+I").category_best)
+        self.assertFalse(self.cell(table, "Traj-LO", "L1+L2").category_best)
+
+    def test_values_that_are_printed_alike_are_equally_good(self):
+        table = self.table(0.0294)
+        self.assertTrue(self.cell(table, "ours", "L1").best)
+        self.assertTrue(self.cell(table, "FAST-LIO", "L1+I").best)
+
+    def test_our_rows_stand_in_their_category(self):
+        categories = [line.category for line in self.table(1.0).lines]
+        self.assertEqual(categories, ["LO"] * 7 + ["LIO"] * 4)
+
+    def test_a_divergence_is_an_x_and_what_was_not_run_a_dash(self):
+        table = self.table(None, "x")
+        self.assertEqual(self.cell(table, "ours", "L1").text, "x")
+        self.assertEqual(self.cell(table, "ours", "L1", "eee_02").text, "-")
+
+    def test_the_average_needs_all_sequences_to_be_numbers(self):
+        published = read_published(PUBLISHED / "traj_lo_kitti.yaml")
+        suite = make_suite(groups=("00", "01"), metric="kitti_translation_percent")
+        rows = [row("ours", "00", 0.4), row("ours", "01", 0.6)]
+        table = tables.compared_table(suite, rows, published)
+        self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "0.50")
+        rows[1]["result"] = "x"
+        table = tables.compared_table(suite, rows, published)
+        self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "-")
+
+
+class SuiteTableTest(unittest.TestCase):
+    def test_seeds_become_their_median(self):
+        rows = [row("ours", "eee_01", value, sequence=f"eee_01-seed{i}")
+                for i, value in enumerate((0.1, 0.9, 0.2))]
+        cell = tables.suite_table(make_suite(), rows).lines[0].cells[0]
+        self.assertEqual(cell.text, "0.200")
+        self.assertIn("0.100 to 0.900, 3 seeds", cell.note)
+
+    def test_a_seed_that_failed_is_counted_and_forfeits_the_mark(self):
+        suite = make_suite(configurations=("ours", "theirs"))
+        rows = [row("ours", "eee_01", 0.1, sequence="a"),
+                row("ours", "eee_01", 0.1, "x", sequence="b"), row("theirs", "eee_01", 0.2)]
+        ours, theirs = (line.cells[0] for line in tables.suite_table(suite, rows).lines)
+        self.assertEqual((ours.text, ours.best), ("0.100 (1 x)", False))
+        self.assertTrue(theirs.best)
+
+    def test_an_unfinished_run_is_no_failure(self):
+        table = tables.suite_table(make_suite(), [row("ours", "eee_01", None, "not finished")])
+        self.assertEqual(table.lines[0].cells[0].text, "…")
+
+    def test_a_single_configuration_has_nothing_to_be_better_than(self):
+        table = tables.suite_table(make_suite(), [row("ours", "eee_01", 0.1)])
+        self.assertFalse(table.lines[0].cells[0].best)
+
+    def test_speed_has_a_table_without_marks(self):
+        rows = [{**row("ours", "eee_01", 0.1), "times_real_time": 12.34},
+                {**row("theirs", "eee_01", 0.1), "times_real_time": 2.0}]
+        table = tables.speed_table(make_suite(configurations=("ours", "theirs")), rows)
+        self.assertEqual([line.cells[0].text for line in table.lines], ["12.3", "2.0"])
+        self.assertFalse(any(line.cells[0].best for line in table.lines))
+
+
+class FormatsTest(unittest.TestCase):
+    def table(self):
+        lines = [tables.Line("ours_1", "LO", "L1", True, [tables.Cell("0.1", 0.1, True, True)]),
+                 tables.Line("FAST-LIO", "LIO", "L1+I", False, [tables.Cell("x")])]
+        return tables.Table("ATE (%)", ["eee_01"], lines, ["a & b"])
+
+    def test_markdown_has_bold_and_underline(self):
+        text = table_formats.to_markdown(self.table())
+        self.assertIn(r"| category | approach | eee_01 |", text)
+        self.assertIn(r"| LO | ours_1 \* (L1) | **<u>0.1</u>** |", text)
+        self.assertIn("| LIO | FAST-LIO (L1+I) | x |", text)
+
+    def test_latex_is_escaped(self):
+        text = table_formats.to_latex(self.table())
+        self.assertIn(r"\caption{ATE (\%)}", text)
+        self.assertIn(r"LO & ours\_1 * (L1) & \textbf{\underline{0.1}} \\", text)
+        self.assertIn(r"a \& b", text)
+        self.assertEqual(text.count(r"\midrule"), 2)
+
+    def test_csv_has_plain_values(self):
+        self.assertEqual(table_formats.to_csv(self.table()),
+                         "category,approach,eee_01\nLO,ours_1 * (L1),0.1\nLIO,FAST-LIO (L1+I),x\n")
+
+    def test_a_transposed_table_has_a_row_a_sequence(self):
+        table = self.table()
+        table.transposed = True
+        self.assertIn("| eee_01 | **<u>0.1</u>** | x |", table_formats.to_markdown(table))
+
+
+if __name__ == "__main__":
+    unittest.main()
