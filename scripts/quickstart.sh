@@ -1,39 +1,44 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# From a fresh Debian 12 machine to a trajectory, a map and a picture of them, in one command:
-# installs what is missing, builds, simulates a recording, and runs the odometry on it.
-#   scripts/quickstart.sh [RECORDING]     with a folder of scans, that is used in place of a
-#                                         simulated one
+# From a fresh Debian 12 machine to a trajectory, a map, the errors and a page of pictures, in one
+# command: installs what is missing, builds, simulates a hand-held walk through an office, runs the
+# odometry on it and evaluates it against the truth.
+#   scripts/quickstart.sh [RECORDING]     with a recording of yours in place of the simulated one
 # Results are in runs/quickstart (TRAJLO_RUNS names another folder for runs/).
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="${TRAJLO_BUILD_DIR:-$root/build}"
 runs="${TRAJLO_RUNS:-$root/runs}/quickstart"
-scenario="hall_os1_16"
+scenario="office_os0_64"
 
 if [[ "${1:-}" == "-h" || "${1:-}" == "--help" ]]; then
-  sed -n '3,7p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
+  sed -n '3,8p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
   exit 0
 fi
 
 "$root/scripts/install_dependencies.sh"
-"$root/scripts/build.sh" --target trajlo_run trajlo_simulate
+"$root/scripts/build.sh" --target trajlo_run trajlo_simulate trajlo_evaluate
 
 mkdir -p "$runs"
-plot_arguments=()
-run_arguments=()
+result="$runs/result"
 if [[ $# -ge 1 ]]; then
-  recording="$1"
+  "$build/apps/trajlo_run" --input="$1" --output="$result" --overwrite
+  "$root/scripts/draw_run.py" "$result"
 else
   recording="$runs/recording"
-  "$build/apps/trajlo_simulate" --scenario="$scenario" --duration_s=15 --output="$recording" \
-    --overwrite
-  run_arguments+=(--config="$root/config/datasets/$scenario.yaml")
-  plot_arguments+=(--truth "$recording/truth.tum" --title "$scenario (simulated)")
+  "$build/apps/trajlo_simulate" --scenario="$scenario" --output="$recording" --overwrite
+  "$build/apps/trajlo_run" --input="$recording" --config="$recording/rig.yaml" \
+    --output="$result" --overwrite
+  "$build/apps/trajlo_evaluate" "$result/trajectory.tum" "$recording/truth.tum" --names=trajlo \
+    --output="$runs/evaluation" --overwrite
+  "$root/scripts/draw_run.py" "$result" --evaluation "$runs/evaluation" \
+    --title "$scenario (simulated)"
 fi
-"$build/apps/trajlo_run" --input="$recording" --output="$runs/result" --overwrite \
-  "${run_arguments[@]}"
-/usr/bin/python3 "$root/scripts/plot_run.py" "$runs/result" "${plot_arguments[@]}" \
-  --output "$runs/result/picture.png"
 echo
-echo "Trajectory, map, statistics and picture are in $runs/result"
+echo "Trajectory, map and statistics are in $result"
+page="$result/run.html"
+echo "Pictures and tables: $page"
+# Shown at once where there is a screen.
+if [[ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]] && command -v xdg-open > /dev/null; then
+  xdg-open "$page" > /dev/null 2>&1 &
+fi
