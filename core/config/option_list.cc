@@ -287,6 +287,20 @@ void BindWeights(WeightOptions* weights, Binder* b) {
          "geometry and motion does not depend on the density of the sensor.");
 }
 
+void BindWeightBalance(WeightBalanceOptions* balance, Binder* b) {
+  b->Add("weight_balance.enabled", balance->enabled,
+         "Lets the smoothness sigmas find themselves from the residuals of the last seconds "
+         "(variance components); the configured ones are where they start.");
+  b->Add("weight_balance.memory_s", balance->memory_s, Range<double>{0.01, 1e6},
+         "Time over which residuals are remembered.");
+  b->Add("weight_balance.prior_s", balance->prior_s, Range<double>{0.0, 1e6},
+         "The configured sigmas count like residuals of this much time that agree with them.");
+  b->Add("weight_balance.points_per_error", balance->points_per_error, Range<double>{1.0, 1e6},
+         "Points that hit the same surfaces of the map share its errors: so many count as one.");
+  b->Add("weight_balance.max_factor", balance->max_factor, Range<double>{1.0, 1e4},
+         "The sigmas stay within this factor of the configured ones.");
+}
+
 void BindSolver(SolverOptions* solver, Binder* b) {
   b->Add("solver.kind", solver->kind, kSolvers,
          "Ceres, or the hand-written Gauss-Newton of the paper.");
@@ -377,6 +391,7 @@ std::vector<Option> BindOptions(RunConfig* config) {
   BindAssociation(&odometry->association, &binder);
   BindThreshold(&odometry->threshold, &binder);
   BindWeights(&odometry->weights, &binder);
+  BindWeightBalance(&odometry->weight_balance, &binder);
   BindSolver(&odometry->solver, &binder);
   BindMarginalization(&odometry->marginalization, &binder);
   BindEstimation(odometry, &binder);
@@ -397,6 +412,7 @@ std::string SectionDoc(const std::string& section) {
        "How far off predictions are taken to be: it sets how far associations reach "
        "and how wide the robust kernel is."},
       {"weights", "The weights of the energy."},
+      {"weight_balance", "How the ratio between geometry and smoothness finds itself."},
       {"solver", "How a window is solved."},
       {"solver.ceres", "Only read by the Ceres solver."},
       {"marginalization", "How the past is kept when a segment leaves the window."},

@@ -7,6 +7,7 @@
 #include "core/estimation/adaptive_threshold.h"
 #include "core/estimation/association.h"
 #include "core/estimation/solver_options.h"
+#include "core/estimation/weight_balance.h"
 #include "core/estimation/window_solver.h"
 #include "core/estimation/window_statistics.h"
 #include "core/map/map_pyramid.h"
@@ -55,6 +56,7 @@ struct OdometryOptions {
   AssociationOptions association;
   AdaptiveThresholdOptions threshold;
   WeightOptions weights;
+  WeightBalanceOptions weight_balance;
   SolverOptions solver;
   MarginalizationOptions marginalization;
   WindowOptions window;

@@ -14,7 +14,8 @@ SlidingWindow::SlidingWindow(const OdometryOptions& options, const MapPyramid* m
       threads_(threads),
       solver_(make_solver(options.solver, threads)),
       evaluator_(threads),
-      threshold_(options.threshold) {}
+      threshold_(options.threshold),
+      balance_(options.weight_balance) {}
 
 void SlidingWindow::Start(std::int64_t t_ns, const SE3& T_world_body, const Vector6d& velocity) {
   segments_.clear();
@@ -92,6 +93,11 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
   } else {
     evaluator_.Evaluate(problem_, problem_.poses, true, &registration_);
   }
+  if (options_.weight_balance.enabled && !(statistics.flags & kFlagReverted)) {
+    balance_.Update(problem_, registration_, segments_.back().Duration_s());
+  }
+  statistics.smoothness_factor_translation = balance_.translation_factor();
+  statistics.smoothness_factor_rotation = balance_.rotation_factor();
   const WindowCondition condition = ConditionOf(problem_, registration_);
   statistics.smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics.weak_direction = condition.weak_direction;
@@ -144,8 +150,10 @@ void SlidingWindow::BuildProblem() {
     SmoothnessTerm term;
     term.tau_expected = expected_velocity_[k] * segment.Duration_s();
     const double ratio = std::max(1.0, segment.Duration_s() / weights.smoothness_interval_s);
-    term.sqrt_information.head<3>().setConstant(1.0 / weights.smoothness_sigma_translation_m);
-    term.sqrt_information.tail<3>().setConstant(1.0 / weights.smoothness_sigma_rotation_rad);
+    term.sqrt_information.head<3>().setConstant(
+        1.0 / (balance_.translation_factor() * weights.smoothness_sigma_translation_m));
+    term.sqrt_information.tail<3>().setConstant(
+        1.0 / (balance_.rotation_factor() * weights.smoothness_sigma_rotation_rad));
     if (weights.smoothness_scales_with_points) {
       double points = 0.0;
       for (const RegistrationPoint& point : *problem_.points.back()) points += point.weight;

@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "core/estimation/odometry.h"
+#include "core/estimation/weight_balance.h"
 #include "core/estimation/window_solver.h"
 
 namespace trajlo {
@@ -56,6 +57,7 @@ class SlidingWindow {
   std::unique_ptr<WindowSolver> solver_;
   RegistrationEvaluator evaluator_;
   AdaptiveThreshold threshold_;
+  WeightBalance balance_;
   std::deque<Segment> segments_;
   std::vector<Vector6d> expected_velocity_;      ///< Pseudo-velocity of each segment, per second.
   Vector6d velocity_before_ = Vector6d::Zero();  ///< Of the segment before the window.

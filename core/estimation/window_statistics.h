@@ -32,6 +32,9 @@ struct WindowStatistics {
   double cost_registration = 0.0;
   double cost_smoothness = 0.0;
   double cost_prior = 0.0;
+  /// What the smoothness sigmas of the next window are multiplied by.
+  double smoothness_factor_translation = 1.0;
+  double smoothness_factor_rotation = 1.0;
   double threshold_m = 0.0;
   double kernel_m = 0.0;
   /// Smallest eigenvalue of the registration information of the newest control poses, per point,

@@ -26,6 +26,8 @@ CsvRow MakeRow(const WindowStatistics& w) {
   row.Add("cost_registration", w.cost_registration);
   row.Add("cost_smoothness", w.cost_smoothness);
   row.Add("cost_prior", w.cost_prior);
+  row.Add("smoothness_factor_translation", w.smoothness_factor_translation);
+  row.Add("smoothness_factor_rotation", w.smoothness_factor_rotation);
   row.Add("threshold_m", w.threshold_m);
   row.Add("kernel_m", w.kernel_m);
   row.Add("smallest_eigenvalue", w.smallest_eigenvalue);

@@ -62,13 +62,14 @@ TEST(ConfigCompleteness, EveryFieldOfTheOptionsHasAKey) {
   EXPECT_EQ(FieldCount<PlaneFitOptions>(), KeysIn("association.plane"));
   EXPECT_EQ(FieldCount<AdaptiveThresholdOptions>(), KeysIn("threshold"));
   EXPECT_EQ(FieldCount<WeightOptions>(), KeysIn("weights"));
+  EXPECT_EQ(FieldCount<WeightBalanceOptions>(), KeysIn("weight_balance"));
   EXPECT_EQ(FieldCount<SolverOptions>(), KeysIn("solver") + 1);  // `ceres`
   EXPECT_EQ(FieldCount<CeresOptions>(), KeysIn("solver.ceres"));
   EXPECT_EQ(FieldCount<MarginalizationOptions>(), KeysIn("marginalization"));
   EXPECT_EQ(FieldCount<WindowOptions>(), KeysIn("window"));
   EXPECT_EQ(FieldCount<InitializationOptions>(), KeysIn("initialization"));
   EXPECT_EQ(FieldCount<LostOptions>(), KeysIn("lost"));
-  EXPECT_EQ(FieldCount<OdometryOptions>(), 10 + KeysIn(""));  // Ten sections.
+  EXPECT_EQ(FieldCount<OdometryOptions>(), 11 + KeysIn(""));  // Eleven sections.
   EXPECT_EQ(FieldCount<RecordingOptions>(), KeysIn("input"));
 }
 

@@ -11,6 +11,9 @@
 #include <iterator>
 #include <sstream>
 
+#include "core/io/messages/pose_decoder.h"
+#include "core/io/ros1/ros1_bag_reader.h"
+#include "core/simulation/point_time.h"
 #include "tests/core/simulation/hollow_cube.h"
 
 namespace trajlo::simulation {
@@ -46,9 +49,9 @@ class RecordingWriterTest : public testing::Test {
   }
   ~RecordingWriterTest() override { fs::remove_all(directory_); }
 
-  std::vector<SimulatedScan> Record() {
+  std::vector<SimulatedScan> Record(const std::optional<BagFormat>& bag = {}) {
     const Simulator simulator(scenario_, MakeHollowCube(), SlowTurn);
-    RecordingWriter writer(simulator, directory_);
+    RecordingWriter writer(simulator, directory_, bag);
     std::vector<SimulatedScan> scans;
     SimulateScans(simulator, 0, [&](const SimulatedScan& scan) {
       writer.Write(scan);
@@ -161,6 +164,60 @@ TEST_F(RecordingWriterTest, TheScenarioFileIsYamlWithTheTrueExtrinsics) {
   const YAML::Node extrinsic = rig["sensor"]["T_body_lidar"][0];
   EXPECT_EQ(extrinsic["translation_m"].as<std::vector<double>>()[1], 0.2);
   EXPECT_EQ(extrinsic["rotation"].as<std::vector<double>>()[1], std::sin(0.05));
+}
+
+TEST_F(RecordingWriterTest, PointTimesSurviveSecondsOfFloat32) {
+  for (const SimulatedScan& simulated : Record()) {
+    for (const LidarPoint& point : simulated.scan.points) {
+      const std::int64_t offset_ns = point.t_ns - simulated.sweep_start_ns;
+      ASSERT_EQ(StorableOffsetNs(offset_ns), offset_ns);
+    }
+  }
+}
+
+TEST(StorableOffsetNs, IsCloseAndDoesNotMoveTwice) {
+  for (std::int64_t offset_ns = 0; offset_ns < 100'000'000; offset_ns += 9'973) {
+    const std::int64_t stored_ns = StorableOffsetNs(offset_ns);
+    ASSERT_LE(std::abs(stored_ns - offset_ns), 4);
+    ASSERT_EQ(StorableOffsetNs(stored_ns), stored_ns);
+  }
+}
+
+TEST_F(RecordingWriterTest, ABagHasPointsTruthAndTopicsAndNoFolderOfScans) {
+  scenario_.rig.push_back(MakeLidar("avia"));
+  const std::vector<SimulatedScan> scans = Record(BagFormat());
+  EXPECT_FALSE(fs::exists(directory_ / "scans"));
+  EXPECT_FALSE(fs::exists(directory_ / "lidar0"));
+  EXPECT_TRUE(fs::exists(directory_ / "truth.tum"));
+  const YAML::Node rig = YAML::LoadFile((directory_ / "rig.yaml").string());
+  EXPECT_EQ(rig["input"]["topics"][0].as<std::string>(), "/os_cloud_node/points");
+  EXPECT_EQ(rig["input"]["topics"][1].as<std::string>(), "/livox/lidar");
+  Ros1BagReader bag(directory_ / "recording.bag");
+  std::size_t clouds = 0;
+  std::int64_t truth_ns = scenario_.start_time_ns, before_ns = 0;
+  RawMessage message;
+  while (bag.Next(&message)) {
+    EXPECT_GE(message.recorded_ns, before_ns);
+    before_ns = message.recorded_ns;
+    const Topic& topic = bag.topics()[message.topic];
+    if (topic.name != "/truth") {
+      ++clouds;
+      continue;
+    }
+    const auto pose = DecodePose(topic.type, topic.encoding, message.bytes.view());
+    ASSERT_TRUE(pose);
+    EXPECT_EQ(pose->t_ns, truth_ns);
+    const double t_s = 1e-9 * static_cast<double>(truth_ns - scenario_.start_time_ns);
+    EXPECT_LT(Minus(pose->T_world_body, SlowTurn(t_s)).norm(), 1e-12);
+    truth_ns += 1'000'000;
+  }
+  EXPECT_EQ(clouds, scans.size());
+  EXPECT_EQ(truth_ns, scenario_.start_time_ns + 501'000'000);
+}
+
+TEST_F(RecordingWriterTest, MotionCorrectedScansGoIntoNoBag) {
+  scenario_.motion_corrected = true;
+  EXPECT_THROW(Record(BagFormat()), std::invalid_argument);
 }
 
 TEST_F(RecordingWriterTest, ThePictureShowsSceneAndPath) {
