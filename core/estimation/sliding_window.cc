@@ -78,7 +78,8 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
   const SE3 correction = predicted.Inverse() * problem_.poses.back();
   const bool jumped = correction.t.norm() > options_.lost.max_correction_m ||
                       so3::Log(correction.q).norm() > options_.lost.max_correction_rad;
-  if (!finite || jumped) {
+  is_reverted_ = !finite || jumped;
+  if (is_reverted_) {
     problem_.poses = start;
     statistics.flags |= kFlagReverted;
   } else {
@@ -88,12 +89,15 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
   if (segments_.back().association.registration_points().empty()) {
     statistics.flags |= kFlagNoPoints;
   }
-  if (registration_at_solution != nullptr && !(statistics.flags & kFlagReverted)) {
+  if (is_reverted_) {
+    // The planes belong to poses that are not believed.
+    registration_.assign(segments_.size(), {});
+  } else if (registration_at_solution != nullptr) {
     registration_ = *registration_at_solution;
   } else {
     evaluator_.Evaluate(problem_, problem_.poses, true, &registration_);
   }
-  if (options_.weight_balance.enabled && !(statistics.flags & kFlagReverted)) {
+  if (options_.weight_balance.enabled && !is_reverted_) {
     balance_.Update(problem_, registration_, segments_.back().Duration_s());
   }
   statistics.smoothness_factor_translation = balance_.translation_factor();
@@ -177,6 +181,10 @@ SlidingWindow::Left SlidingWindow::Marginalize() {
           ? MarginalizeOldest(problem_, registration_.front(), marginalization.use_qr)
           : MakeAnchor(problem_.poses[1], marginalization.anchor_sigma_translation_m,
                        marginalization.anchor_sigma_rotation_rad);
+
+  // The poses of a reverted window are no minimum: what is left of their gradient would pull at the
+  // windows that follow.
+  if (is_reverted_) prior.offset.setZero();
 
   Segment& oldest = segments_.front();
   Left left{std::move(oldest.cloud), problem_.poses[0], problem_.poses[1]};

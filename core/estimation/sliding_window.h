@@ -63,6 +63,7 @@ class SlidingWindow {
   Vector6d velocity_before_ = Vector6d::Zero();  ///< Of the segment before the window.
   std::int64_t front_ns_ = 0;
   unsigned front_flags_ = 0;
+  bool is_reverted_ = false;  ///< The last solve was not believed.
   WindowProblem problem_;  ///< Holds the poses and the prior between solves.
   std::vector<RegistrationNormalEquations> registration_;  ///< At the poses of problem_.
 };

@@ -60,7 +60,8 @@ void KdTreeMap::Rebuild() {
   index_->Add(points);
 }
 
-void KdTreeMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const {
+void KdTreeMap::Nearest(const Eigen::Vector3d& query_world, int k, int /*at_least*/,
+                        Neighbors* neighbors) const {
   std::size_t indices[kMaxNeighbors];
   double squared[kMaxNeighbors];
   neighbors->count = 0;

@@ -33,7 +33,7 @@ bool MapPyramid::FindPlane(const Eigen::Vector3d& query_world, const PlaneFitOpt
                            double reach_m, Plane* plane) const {
   Neighbors neighbors;
   for (const Level& level : levels_) {
-    level.map->Nearest(query_world, options.neighbors, &neighbors);
+    level.map->Nearest(query_world, options.neighbors, options.min_neighbors, &neighbors);
     if (neighbors.count < options.min_neighbors) continue;
     const double reach = reach_m * level.scale;
     if (neighbors.squared_distance[0] > reach * reach) continue;

@@ -47,8 +47,10 @@ class PointMap {
                       std::vector<Eigen::Vector3d>* accepted = nullptr) = 0;
   /// Drops what is farther than `radius_m` from `center_world`.
   virtual void RemoveFar(const Eigen::Vector3d& center_world) = 0;
-  /// The `k` <= kMaxNeighbors nearest points that the map can find around `query_world`.
-  virtual void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const = 0;
+  /// The `k` <= kMaxNeighbors nearest points that the map can find around `query_world`. Where they
+  /// are fewer than `at_least` the map may give none: it need not look at them.
+  virtual void Nearest(const Eigen::Vector3d& query_world, int k, int at_least,
+                       Neighbors* neighbors) const = 0;
 
   virtual std::size_t size() const = 0;
   virtual void ForEachPoint(const std::function<void(const Eigen::Vector3d&)>& visit) const = 0;

@@ -162,7 +162,8 @@ void VoxelHashMap::Scan(int block, float dx, float dy, float dz, const float* qu
   }
 }
 
-void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const {
+void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, int at_least,
+                           Neighbors* neighbors) const {
   neighbors->count = 0;
   const Key key = KeyOf(query_world);
   const Eigen::Vector3d corner = Corner(key);
@@ -170,17 +171,28 @@ void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors*
   const Eigen::Vector3f q = (query_world - corner).cast<float>();
   Best best{std::min(k, kMaxNeighbors), neighbors};
 
+  // Most queries in sparse surroundings end here: too few points for any answer that is wanted.
   const int own = Find(key);
+  int around[6];
+  int count = own >= 0 ? blocks_[own].count : 0;
+  for (int d = 0; d < 6; ++d) {
+    around[d] = own >= 0 ? blocks_[own].neighbors[d] : Find(key + kDirections[d]);
+    if (around[d] >= 0) count += blocks_[around[d]].count;
+  }
+  if (count < at_least) return;
+
   if (own >= 0) Scan(own, 0.0F, 0.0F, 0.0F, q.data(), &best);
   const auto size = static_cast<float>(voxel_size_);
-  for (int d = 0; d < 6; ++d) {
-    const int axis = d / 2;
-    const float to_face = d % 2 == 0 ? q[axis] : size - q[axis];
+  // The three nearer faces first: what is found there often spares the others.
+  for (int i = 0; i < 6; ++i) {
+    const int axis = i % 3;
+    const bool upper = (q[axis] > 0.5F * size) == (i < 3);
+    const int d = 2 * axis + (upper ? 1 : 0);
+    if (around[d] < 0) continue;
+    const float to_face = upper ? size - q[axis] : q[axis];
     if (to_face * to_face >= best.Worst()) continue;
-    const int neighbor = own >= 0 ? blocks_[own].neighbors[d] : Find(key + kDirections[d]);
-    if (neighbor < 0) continue;
     const Eigen::Vector3f shift = size * kDirections[d].cast<float>();
-    Scan(neighbor, shift.x(), shift.y(), shift.z(), q.data(), &best);
+    Scan(around[d], shift.x(), shift.y(), shift.z(), q.data(), &best);
   }
 }
 

@@ -25,7 +25,8 @@ class VoxelHashMap final : public PointMap {
   void Insert(const std::vector<Eigen::Vector3d>& points_world,
               std::vector<Eigen::Vector3d>* accepted = nullptr) override;
   void RemoveFar(const Eigen::Vector3d& center_world) override;
-  void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const override;
+  void Nearest(const Eigen::Vector3d& query_world, int k, int at_least,
+               Neighbors* neighbors) const override;
   std::size_t size() const override { return point_count_; }
   void ForEachPoint(const std::function<void(const Eigen::Vector3d&)>& visit) const override;
 

@@ -98,6 +98,7 @@ def make_run(suite, places, programs, configuration, sequence, theme, cache):
         "program": programs["trajlo_run"], "recording": recording, "config": files, "set": values,
         "run": sequence.run, "topics": sequence.topics, "lidars": configuration.lidars,
         "threads": suite.threads, "timeout_s": suite.timeout_s,
+        "keep_map": suite.keep_maps,
         "depends_on": {
             "options": digest([options, sequence.run]),
             "recording": digest([recording, sequence.topics, configuration.lidars]),

@@ -171,6 +171,8 @@ def run_alone(job, folder):
         reason = str(error)
     if code in INTERRUPTED:
         raise StepError("the run was interrupted")
+    if not job["keep_map"]:
+        (result / "map.ply").unlink(missing_ok=True)
     if code == TIMEOUT:
         code, reason = -signal.SIGKILL, f"longer than {job['timeout_s']} s"
     elif not reason:

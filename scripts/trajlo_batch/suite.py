@@ -78,6 +78,7 @@ class Suite:
     threads: int = 1
     timeout_s: float = 0.0
     goal = "page/run.html"  # the last file of a run
+    keep_maps = True
 
     @property
     def pairs(self):

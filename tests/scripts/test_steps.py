@@ -78,8 +78,8 @@ class RunTest(FolderTest):
         program = self.executable("program", f"#!/bin/sh\n{script}\n")
         job = {"program": {"path": str(program)}, "recording": {"paths": ["scans"]}, "config": [],
                "set": {"a.b": "1"}, "run": {"at": "scan-end"}, "topics": [], "lidars": [],
-               "threads": 2, "timeout_s": 0, "sequence": "one", "configuration": "plain",
-               "depends_on": {"options": "x"}, **changes}
+               "threads": 2, "timeout_s": 0, "keep_map": True, "sequence": "one",
+               "configuration": "plain", "depends_on": {"options": "x"}, **changes}
         path = self.write("plain/one/job.json", json.dumps(job))
         steps.run(path)
         return json.loads((path.parent / "status.json").read_text())
@@ -103,6 +103,15 @@ class RunTest(FolderTest):
     def test_a_run_that_takes_too_long_is_ended(self):
         status = self.run_with("exec sleep 60", timeout_s=0.2)
         self.assertEqual(status["reason"], "longer than 0.2 s")
+
+    def test_a_map_that_nobody_wants_is_dropped(self):
+        for keep in (True, False):
+            script = 'r="${2#--output=}"; mkdir -p "$r"; touch "$r/map.ply" "$r/run.json"'
+            (self.folder / "plain/one/status.json").unlink(missing_ok=True)
+            self.run_with(script, keep_map=keep)
+            result = self.folder / "plain/one/result"
+            self.assertEqual((result / "map.ply").is_file(), keep)
+            self.assertTrue((result / "run.json").is_file())
 
     def test_an_interrupted_run_has_no_status_so_that_it_is_done_again(self):
         with self.assertRaisesRegex(steps.StepError, "interrupted"):

@@ -53,7 +53,7 @@ TEST(VoxelHashMap, FindsTheNearestPointsOfItsSevenVoxels) {
   for (const auto& query : RandomPoints(500, 5.2, Eigen::Vector3d::Zero(), 2)) {
     for (int k : {1, 5, 8, 20}) {
       Neighbors found;
-      map.Nearest(query, k, &found);
+      map.Nearest(query, k, 1, &found);
       const auto expected = SevenVoxelDistances(map, query, 0.7, k);
       ASSERT_EQ(found.count, static_cast<int>(expected.size()));
       for (int i = 0; i < found.count; ++i) {
@@ -81,8 +81,8 @@ TEST(VoxelHashMap, AgreesWithTheKdTreeWhereTheNeighboursAreInReach) {
   int compared = 0;
   for (const auto& query : RandomPoints(2000, 3.9, Eigen::Vector3d::Zero(), 4)) {
     Neighbors a, b;
-    hash.Nearest(query, 5, &a);
-    tree.Nearest(query, 5, &b);
+    hash.Nearest(query, 5, 1, &a);
+    tree.Nearest(query, 5, 1, &b);
     ASSERT_EQ(b.count, 5);
     // The hash is exact up to the distance of the nearest voxel that it does not search: the edges.
     const Eigen::Vector3d in_cell = query.array() - query.array().floor();
@@ -110,7 +110,7 @@ TEST(KdTreeMap, FindsTheNearestPointsOfTheWholeMapAlsoAfterRemoval) {
         return (a - query).squaredNorm() < (b - query).squaredNorm();
       });
       Neighbors found;
-      map.Nearest(query, 5, &found);
+      map.Nearest(query, 5, 1, &found);
       ASSERT_EQ(found.count, 5);
       for (int i = 0; i < 5; ++i) {
         EXPECT_NEAR(std::sqrt(found.squared_distance[i]), (stored[i] - query).norm(), 1e-5);
@@ -127,7 +127,7 @@ TEST_P(EveryMap, IsEmptyAtFirstAndBoundedByVoxelsTimesCap) {
   options.kind = GetParam();
   const auto map = MakePointMap(options);
   Neighbors found;
-  map->Nearest({0, 0, 0}, 5, &found);
+  map->Nearest({0, 0, 0}, 5, 1, &found);
   EXPECT_EQ(found.count, 0);
   map->Insert(RandomPoints(50000, 1.0, Eigen::Vector3d::Zero(), 7));
   EXPECT_EQ(map->size(), 8u * 20u);
@@ -147,7 +147,7 @@ TEST_P(EveryMap, DropsWhatIsFarAndKeepsWhatIsNear) {
   EXPECT_EQ(map->size(), 0u);
   map->Insert(RandomPoints(2000, 2.0, {30, 0, 0}, 9));
   Neighbors found;
-  map->Nearest({30, 0, 0}, 5, &found);
+  map->Nearest({30, 0, 0}, 5, 1, &found);
   EXPECT_EQ(found.count, 5);
 }
 
@@ -158,7 +158,7 @@ TEST_P(EveryMap, IsPreciseAMillionMetresFromTheOrigin) {
   const auto map = MakePointMap(options);
   map->Insert({far + Eigen::Vector3d(0.01, 0.02, 0.03), far + Eigen::Vector3d(0.05, 0.02, 0.03)});
   Neighbors found;
-  map->Nearest(far + Eigen::Vector3d(0.02, 0.02, 0.03), 5, &found);
+  map->Nearest(far + Eigen::Vector3d(0.02, 0.02, 0.03), 5, 1, &found);
   ASSERT_EQ(found.count, 2);
   EXPECT_NEAR(std::sqrt(found.squared_distance[0]), 0.01, 1e-6);
   EXPECT_NEAR(std::sqrt(found.squared_distance[1]), 0.03, 1e-6);

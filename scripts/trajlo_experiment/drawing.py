@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""What the figures of experiments share."""
+import math
+
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator, NullLocator
+
+from trajlo_experiment.factors import LOG
+
+MARKERS = "D*sP^v"  # of marked settings
+SHAPES = "os^vDP"   # of scenarios
+
+
+def soften(axes):
+    """The frame must not be louder than the data."""
+    for side in axes.spines.values():
+        side.set_linewidth(0.4)
+
+
+def open_frame(axes):
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def mark_style(findings, name, theme):
+    """How a marked setting is drawn, the same in all figures."""
+    shape = MARKERS[list(findings.marks).index(name) % len(MARKERS)]
+    return {"ls": "", "marker": shape, "ms": 8.5 if shape == "*" else 5.5,
+            "color": theme.methods[1], "mec": theme.panel, "mew": 0.7}
+
+
+def mark_handles(findings, names, theme):
+    return [Line2D([], [], label=name, **mark_style(findings, name, theme))
+            for name in dict.fromkeys(names)]
+
+
+def legend_columns(labels, width_in):
+    """As many columns as fit; matplotlib fills them one after the other."""
+    for columns in range(len(labels), 1, -1):
+        lines = math.ceil(len(labels) / columns)
+        widest = [max(map(len, labels[start:start + lines]))
+                  for start in range(0, len(labels), lines)]
+        if sum(0.5 + 0.055 * letters for letters in widest) <= width_in:
+            return columns
+    return 1
+
+
+def below(figure, handles):
+    """A legend below everything else, for which the figure grows."""
+    if not handles:
+        return
+    width, height = figure.get_size_inches()
+    columns = legend_columns([handle.get_label() for handle in handles], width)
+    legend_in = 0.08 + 0.16 * math.ceil(len(handles) / columns)
+    figure.set_size_inches(width, height + legend_in)
+    share = legend_in / (height + legend_in)
+    figure.get_layout_engine().set(rect=(0.0, share, 1.0, 1.0 - share))
+    figure.legend(handles=handles, loc="lower center", ncol=columns, frameon=False,
+                  borderaxespad=0.1, columnspacing=1.4, handletextpad=0.4)
+
+
+def log_ticks(low, high):
+    """Round numbers between two others, evenly enough on a logarithmic axis."""
+    decades = math.log10(high / low)
+    steps = ((1,) if decades > 3 else (1, 3) if decades > 1.5 else (1, 2, 5) if decades > 0.8
+             else (1, 1.5, 2, 3, 4, 5, 7))
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    ticks = [step * 10.0**power for power in powers for step in steps]
+    inside = [tick for tick in ticks if low <= tick <= high]
+    if len(inside) < 3:
+        inside = [tick for tick in MaxNLocator(4).tick_values(low, high) if low <= tick <= high]
+    return inside
+
+
+def plain_log(axis, low, high):
+    """Ticks of a logarithmic axis as people write numbers: 0.02, 0.05, 0.1, ..."""
+    ticks = log_ticks(low, high)
+    axis.set_major_locator(FixedLocator(ticks))
+    axis.set_major_formatter(FixedFormatter([f"{tick:.4g}" for tick in ticks]))
+    axis.set_minor_locator(NullLocator())
+
+
+def error_axis(axes, values):
+    """A logarithmic axis of errors that shows all finite values, with room above for failures."""
+    finite = [value for value in values if math.isfinite(value) and value > 0]
+    if not finite:
+        return
+    low, high = min(finite), max(finite)
+    span = max(math.log10(high / low), 0.3)
+    low, high = low / 10 ** (0.13 * span), high * 10 ** (0.22 * span)
+    axes.set_yscale("log")
+    axes.set_ylim(low, high)
+    plain_log(axes.yaxis, low, high)
+
+
+def factor_axis(axes, factor, centers):
+    """The x axis of a numeric factor with its levels as ticks."""
+    if factor.scale == LOG:
+        axes.set_xscale("log")
+    if len(centers) <= 6:
+        axes.set_xticks(centers, [f"{center:.3g}" for center in centers])
+        axes.xaxis.set_minor_locator(NullLocator())
+    elif factor.scale == LOG:
+        plain_log(axes.xaxis, min(centers), max(centers))
+    axes.set_xlabel(factor.label)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""results.csv, the figures, and one self-contained page about an experiment."""
+import math
+import re
+
+from trajlo_batch import results
+from trajlo_batch.batch_report import summary
+from trajlo_experiment import analysis, figures, figures_tradeoff, table
+from trajlo_experiment.findings import Findings, level_text
+from trajlo_report import page
+from trajlo_report import theme as themes
+from trajlo_report.files import write_atomically
+
+BEST = 12  # settings of the table
+NUMBER = re.compile(r"\b\d+(\.\d+)?(e[+-]\d+)?(?= (m|s|%|°))")
+RUN_COLUMNS = ("row", "sequence", "result", "ate_rmse_m", "ate_rotation_rmse_deg", "rpe_1m_rmse_m",
+               "rpe_10m_rmse_m", "times_real_time", "iterations_per_window", "inlier_share",
+               "share_flagged")
+
+
+def text_of(value, digits):
+    return "×" if math.isinf(value) else "–" if math.isnan(value) else f"{value:.{digits}f}"
+
+
+def levels_of(findings, row):
+    return [level_text(row[factor.name]) if row[factor.name] is not None else "–"
+            for factor in findings.study.factors]
+
+
+def group_cell(findings, errors):
+    """Median over the seeds, with what is behind it."""
+    errors = [findings.multiplier * error for error in errors]
+    failed = sum(map(math.isinf, errors))
+    return {"text": findings.text(analysis.median(errors))
+            + (f" ({failed} ×)" if failed and failed < len(errors) else ""),
+            "note": ", ".join(map(findings.text, errors))}
+
+
+def best_settings(findings):
+    """The best settings and the marked ones, side by side on all scenarios."""
+    row_of = {row["point"]: row for row in findings.rows}
+    lines = []
+    for place, ranked in enumerate(findings.ranked(), 1):
+        row = row_of[ranked.point]
+        if place > BEST and not row["marks"]:
+            continue
+        lines.append({
+            "rank": place, "levels": levels_of(findings, row), "marks": row["marks"],
+            "score": text_of(ranked.score, 3),
+            "interval": f"{text_of(ranked.low, 2)} to {text_of(ranked.high, 2)}",
+            "best_share": f"{100 * ranked.best_share:.0f} %", "failed": ranked.failed,
+            "groups": [group_cell(findings, ranked.errors[group]) for group in findings.groups]})
+    return lines
+
+
+def front_lines(findings):
+    """The settings of each scenario's Pareto front, numbered as in the figure."""
+    row_of = {row["point"]: row for row in findings.rows}
+    for group in findings.groups:
+        names, costs, errors, front = figures_tradeoff.tradeoff(findings, group)
+        for number, index in enumerate(front, 1):
+            yield {"group": group, "number": number, "cost": f"{costs[index]:.0f}",
+                   "error": findings.text(errors[index]),
+                   "levels": levels_of(findings, row_of[names[index]])}
+
+
+def failure_lines(rows):
+    """Why runs failed, and which; reasons that differ in their numbers only are one."""
+    counts = {}
+    for row in rows:
+        if row["result"] in (results.FAILED, results.UNFINISHED):
+            reason = NUMBER.sub("…", f"{row['result']}: {row['reason']}")
+            counts.setdefault(reason, []).append(row["row"])
+    return sorted(counts.items(), key=lambda item: -len(item[1]))
+
+
+def run_lines(findings, rows):
+    return [{"levels": levels_of(findings, row), "marks": row["marks"],
+             "reason": "" if row["result"] == results.OK else row["reason"],
+             "values": [row.get(name) for name in RUN_COLUMNS]} for row in rows]
+
+
+def seeds_note(findings):
+    """What the intervals are worth."""
+    per_group = [len({row["seed"] for row in findings.rows if row["group"] == group})
+                 for group in findings.groups]
+    fewest = min(per_group, default=0)
+    if fewest < 2:
+        return "Some scenarios have one seed only: the intervals know nothing of their spread."
+    if fewest < 5:
+        return f"With {fewest} seeds a scenario the intervals are rough; more seeds make them fair."
+    return ""
+
+
+def design_text(study):
+    design = study.design
+    text = design.kind.replace("_", " ")
+    return f"{text}, {design.samples} samples, seed {design.seed}" if design.samples else text
+
+
+def write_report(plan, theme_name="light"):
+    """Writes results.csv, figures and report.html into the output folder; returns the rows."""
+    output, study = plan.places.output, plan.suite
+    if not plan.runs:
+        return []
+    rows = table.collect(plan)
+    output.mkdir(parents=True, exist_ok=True)
+    write_atomically(output / "results.csv", results.to_csv(rows))
+    findings, theme = Findings(study, rows), themes.THEMES[theme_name]
+    drawn = figures.draw_all(findings, theme, output / "figures") if findings.rows else []
+    programs = [(name, f"{program['version']} ({program['digest']})")
+                for name, program in plan.programs.items()]
+    shown = [name for name in RUN_COLUMNS if any(row.get(name) is not None for row in rows)]
+    text = page.render(
+        "experiment.html", theme, title=study.title, study=study, summary=summary(rows),
+        count=len(rows), design=design_text(study), recordings=len(study.base_sequences),
+        findings=findings, best=best_settings(findings), front=list(front_lines(findings)),
+        failures=failure_lines(rows), seeds_note=seeds_note(findings), figures=drawn,
+        runs=run_lines(findings, rows), run_columns=RUN_COLUMNS, shown=shown, programs=programs,
+        missing=plan.missing, text=study.file.read_text())
+    write_atomically(output / "report.html", text)
+    return rows

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""Settings as lines through all factors to their error."""
+import math
+
+import matplotlib
+from matplotlib import pyplot as plt
+from matplotlib.colors import LogNorm
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+from trajlo_experiment.drawing import below
+from trajlo_experiment.factors import LOG, is_number
+from trajlo_experiment.findings import level_text
+from trajlo_report import theme as themes
+
+HIGHLIGHTED = 0.1  # share of the settings whose lines stand out
+
+
+def height_on_axis(findings, factor, level):
+    """From 0 to 1 along the axis of a factor, and the ticks of that axis."""
+    values = [item for item in dict.fromkeys(row[factor.name] for row in findings.design)
+              if item is not None]
+    if factor.numeric and all(map(is_number, values)):
+        transform = math.log if factor.scale == LOG else float
+        low, high = transform(min(values)), transform(max(values))
+        return (transform(level) - low) / ((high - low) or 1.0)
+    places = {value: place for place, value in enumerate(factor.levels)}
+    return places[level] / max(len(places) - 1, 1)
+
+
+def axis_ticks(findings, factor):
+    values = [row[factor.name] for row in findings.design if row[factor.name] is not None]
+    values = list(dict.fromkeys(values))
+    if len(values) > 6 and factor.numeric:
+        values = [min(values), max(values)]
+    return [(height_on_axis(findings, factor, value), level_text(value)) for value in values]
+
+
+def draw_parallel(findings, theme):
+    """Each setting is a line through its levels to its error; the best stand out."""
+    factors = [factor for factor in findings.study.factors if len(findings.bins(factor)) > 1]
+    points = {row["point"]: row for row in findings.design if row["point"] in findings.scores
+              and all(row[factor.name] is not None for factor in factors)}
+    finite = sorted(score for score in (findings.scores[name].score for name in points)
+                    if math.isfinite(score))
+    if len(factors) < 2 or len(finite) < 3:
+        return None
+    low, high = finite[0], min(finite[-1], 10 * finite[0])
+    norm = LogNorm(low, max(high, 1.01 * low))
+    bound = finite[max(2, math.ceil(HIGHLIGHTED * len(finite)) - 1)]
+    figure, axes = plt.subplots(figsize=(themes.PAGE_IN, 2.5), constrained_layout=True)
+    colors = matplotlib.colormaps[theme.error_map + "_r" if not theme.error_map.endswith("_r")
+                                  else theme.error_map[:-2]]
+    for name, row in sorted(points.items(), key=lambda item: -findings.scores[item[0]].score):
+        score = findings.scores[name].score
+        heights = [height_on_axis(findings, factor, row[factor.name]) for factor in factors]
+        heights.append(norm(min(score, high)) if math.isfinite(score) else 1.12)
+        lost = not math.isfinite(score)
+        color = theme.end if lost else colors(0.85 * norm(min(score, high)))
+        look = {"lw": 1.5, "alpha": 0.95, "zorder": 3} if score <= bound else {"lw": 0.5,
+                                                                             "alpha": 0.45}
+        axes.plot(range(len(heights)), heights, color=color, ls=":" if lost else "-", **look)
+    titles = [factor.label for factor in factors]
+    for place, factor in enumerate(factors):
+        axes.axvline(place, color=theme.text, lw=0.7, zorder=4)
+        for height, text in axis_ticks(findings, factor):
+            axes.annotate(text, (place, height), textcoords="offset points", xytext=(-3, 0),
+                          ha="right", va="center", fontsize=6.5, zorder=5,
+                          path_effects=[withStroke(linewidth=2, foreground=theme.panel)])
+    last = len(factors)
+    axes.axvline(last, color=theme.text, lw=0.7)
+    ticks = [low, *(value for value in (0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50)
+                    if 1.12 * low < value < 0.9 * high), high]
+    for value in ticks:
+        axes.annotate(f"{value:.2g}", (last, norm(value)), textcoords="offset points",
+                      xytext=(4, 0), va="center", fontsize=6.5)
+    if len(finite) < len(points):
+        axes.annotate("fails", (last, 1.12), textcoords="offset points", xytext=(4, 0),
+                      va="center", fontsize=6.5, color=theme.end)
+    axes.set_xticks(range(last + 1), [*titles, findings.ratio_label.replace(" / ", " /\n")])
+    axes.set(xlim=(-0.35, last + 0.35), ylim=(-0.06, 1.2), yticks=[])
+    axes.tick_params(length=0)
+    axes.grid(False)
+    axes.spines[:].set_visible(False)
+    below(figure, [Line2D([], [], color=colors(0.0), lw=1.5,
+                          label=f"the best {100 * HIGHLIGHTED:.0f} % of the settings"),
+                   *([Line2D([], [], color=theme.end, ls=":", lw=1, label="fails on a recording")]
+                     if len(finite) < len(points) else [])])
+    return figure

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: MIT
+"""From an experiment to its points, and to pairs of point and recording for trajlo_batch.
+
+A point's folder is named by what it sets: values that are added to an experiment leave the runs
+of the others as they are.
+"""
+import dataclasses
+import subprocess
+
+import yaml
+
+from trajlo_batch.places import digest, read_json_if, write_json
+from trajlo_batch.plan import effective_options
+from trajlo_batch.results import flatten
+from trajlo_batch.suite import Configuration
+from trajlo_batch.yaml_lines import SuiteError
+from trajlo_experiment import designs
+from trajlo_experiment.experiment import CENTER
+from trajlo_experiment.factors import SIMULATE, number_or_text
+
+
+@dataclasses.dataclass
+class Point:
+    """One setting, tried on all recordings."""
+    levels: dict             # name of a factor -> level; what is not in it is left to the defaults
+    options: dict            # key -> text
+    parameters: dict         # of simulated scenarios
+    in_design: bool = True   # false: only there because it is marked
+    marks: tuple = ()
+
+    @property
+    def name(self):
+        return f"point-{digest([self.options, self.parameters])[:8]}"
+
+
+@dataclasses.dataclass(frozen=True)
+class Study:
+    """An experiment with its points; to trajlo_batch it is a suite."""
+    experiment: object
+    points: tuple
+    shown: dict              # name of a factor -> level where a point does not set it
+    sequences: tuple
+    pairs: tuple
+    goal = "evaluation_status.json"
+    keep_maps = False        # nine tenths of a result, and nobody looks at hundreds of maps
+
+    def __getattr__(self, name):  # name, file, needs, threads, timeout_s
+        return getattr(self.experiment, name)
+
+
+def make_point(experiment, levels, extra=None):
+    """A point from levels, and from options that are no factors."""
+    settings = dict(extra or {})
+    for name, level in levels.items():
+        settings.update(experiment.factor(name).options(level))
+    options = {key: text for key, text in settings.items() if not key.startswith(SIMULATE)}
+    parameters = {key.removeprefix(SIMULATE): text for key, text in settings.items()
+                  if key.startswith(SIMULATE)}
+    return Point(levels, options, parameters)
+
+
+def design_file(output):
+    return output / "design.json"
+
+
+def specification(experiment):
+    return {"design": dataclasses.asdict(experiment.design),
+            "factors": [dataclasses.asdict(factor) for factor in experiment.factors]}
+
+
+def sampled_levels(experiment, output):
+    """The points of a sampled design: those that were saved, as another version of SciPy may draw
+    others."""
+    saved = read_json_if(design_file(output)) or {}
+    key = digest(specification(experiment))
+    if saved.get("specification_digest") == key:
+        return saved["levels"]
+    design = experiment.design
+    return designs.sampled(design.kind, experiment.factors, design.samples, design.seed)
+
+
+def design_levels(experiment, shown, output):
+    kind = experiment.design.kind
+    if kind == designs.GRID:
+        return designs.grid(experiment.factors)
+    if kind == designs.ONE_AT_A_TIME:
+        return designs.one_at_a_time(experiment.factors, experiment.center, shown)
+    return sampled_levels(experiment, output)
+
+
+def add(points, point):
+    """Adds a point, or only its marks if it is there."""
+    known = points.setdefault(point.name, point)
+    if known is not point:
+        known.marks += point.marks
+        known.in_design |= point.in_design
+
+
+def make_points(experiment, shown, output):
+    points = {}
+    for index, levels in enumerate(design_levels(experiment, shown, output)):
+        point = make_point(experiment, levels)
+        if experiment.design.kind == designs.ONE_AT_A_TIME and index == 0:
+            point.marks = (CENTER,)
+        add(points, point)
+    for mark, values in experiment.marks.items():
+        levels = {**experiment.center,
+                  **{key: value for key, value in values.items() if experiment.factor(key)}}
+        extra = {key: value for key, value in values.items() if not experiment.factor(key)}
+        point = make_point(experiment, levels, extra)
+        point.in_design, point.marks = False, (mark,)
+        add(points, point)
+    return tuple(points.values())
+
+
+def scenario_parameters(places, experiment, scenario, parameters):
+    """All parameters of a scenario; the simulator's refusal ends the experiment early."""
+    command = [places.program("trajlo_simulate"), f"--scenario={scenario}", "--list_parameters"]
+    if parameters:
+        command.append(f"--set={','.join(f'{key}={value}' for key, value in parameters.items())}")
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except FileNotFoundError as error:
+        raise SuiteError(f"{command[0]} is missing; build it with scripts/build.sh") from error
+    if done.returncode != 0:
+        raise SuiteError(f"{experiment.file}: {done.stderr.strip()}")
+    lines = (line.partition("=") for line in done.stdout.splitlines())
+    return {key: number_or_text(value) for key, _, value in lines}
+
+
+def shown_values(experiment, places):
+    """What factors are when no point sets them, as far as that is the same on all sequences."""
+    found = []
+    seen = {}
+    for sequence in experiment.base_sequences:
+        key = (sequence.config, tuple(sequence.settings.items()))
+        if key not in seen:
+            nothing = Configuration("its own options", "")
+            text, _, _ = effective_options(places, experiment, nothing, sequence)
+            seen[key] = dict(flatten(yaml.safe_load(text)))
+        values = dict(seen[key])
+        if sequence.scenario and any(factor.name.startswith(SIMULATE)
+                                     for factor in experiment.factors):
+            listed = scenario_parameters(places, experiment, sequence.scenario,
+                                         sequence.parameters)
+            values.update({f"{SIMULATE}{key}": value for key, value in listed.items()})
+        found.append(values)
+    keys = {factor.name: factor.key for factor in experiment.factors if factor.key}
+    return {name: found[0][key] for name, key in keys.items()
+            if all(key in values and values[key] == found[0][key] for values in found)}
+
+
+def with_parameters(experiment, sequence, parameters):
+    """A sequence whose scenario has other parameters: another recording."""
+    if not parameters:
+        return sequence
+    if not sequence.scenario:
+        raise SuiteError(f"{experiment.file}: {sequence.name} is a recording: its "
+                         f"{', '.join(parameters)} cannot vary")
+    return dataclasses.replace(
+        sequence, name=f"{sequence.name}-{digest(parameters)[:6]}",
+        parameters={**sequence.parameters, **parameters})
+
+
+def make_study(experiment, places):
+    """Points and runs. Throws SuiteError where an option or a parameter is refused."""
+    shown = shown_values(experiment, places)
+    points = make_points(experiment, shown, places.output)
+    sequences, pairs = {}, []
+    for point in points:
+        configuration = Configuration(point.name, point.name, settings=point.options)
+        for base in experiment.base_sequences:
+            sequence = with_parameters(experiment, base, point.parameters)
+            if sequence.name not in sequences and point.parameters:
+                scenario_parameters(places, experiment, sequence.scenario, sequence.parameters)
+            sequences.setdefault(sequence.name, sequence)
+            pairs.append((configuration, sequence))
+    return Study(experiment, points, shown, tuple(sequences.values()), tuple(pairs))
+
+
+def save_design(study, output):
+    """design.json: what was tried, for readers and for the next batch of the same design."""
+    write_json(design_file(output), {
+        "specification": specification(study.experiment),
+        "specification_digest": digest(specification(study.experiment)),
+        "levels": [point.levels for point in study.points if point.in_design],
+        "points": {point.name: {"levels": point.levels, "marks": list(point.marks),
+                                "options": point.options, "parameters": point.parameters}
+                   for point in study.points}})

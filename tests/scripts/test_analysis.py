@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""The numbers behind the figures, also where runs have failed."""
+import math
+import unittest
+
+from support import ROOT  # noqa: F401  makes the scripts importable
+
+from trajlo_experiment import analysis
+
+
+def rows_of(errors, mark=""):
+    """Rows from {point: {group: [error of each seed]}}; None is a failure."""
+    return [{"point": point, "group": group, "seed": seed, "e": error,
+             "marks": "reference" if point == mark else "",
+             "result": "x" if error is None else "ok"}
+            for point, groups in errors.items() for group, values in groups.items()
+            for seed, error in enumerate(values, 1)]
+
+
+class QuantileTest(unittest.TestCase):
+    def test_quantiles_are_linear_between_values(self):
+        self.assertEqual(analysis.quantile([1, 2, 3, 5], 0.5), 2.5)
+        self.assertEqual(analysis.quantile([3], 0.25), 3)
+        self.assertTrue(math.isnan(analysis.quantile([math.nan], 0.5)))
+
+    def test_failures_push_the_median_up_instead_of_leaving_it(self):
+        self.assertEqual(analysis.median([1, 2, math.inf]), 2)
+        self.assertEqual(analysis.median([1, math.inf, math.inf]), math.inf)
+        self.assertEqual(analysis.median([1, math.inf]), math.inf)
+        self.assertEqual(analysis.median([math.inf, math.inf]), math.inf)
+
+
+class RateTest(unittest.TestCase):
+    def test_the_interval_of_a_rate_is_wilsons(self):
+        low, high = analysis.wilson(1, 10)
+        self.assertAlmostEqual(low, 0.0179, places=3)
+        self.assertAlmostEqual(high, 0.4042, places=3)
+        self.assertEqual(analysis.wilson(0, 10)[0], 0.0)
+        self.assertGreater(analysis.wilson(0, 10)[1], 0.2)
+
+
+class ParetoTest(unittest.TestCase):
+    def test_only_what_nothing_beats_in_both_is_on_the_front(self):
+        costs, errors = [1, 2, 3, 4, 1], [5, 3, 4, 1, 6]
+        self.assertEqual(analysis.pareto(costs, errors), [0, 1, 3])
+
+    def test_a_failure_is_never_on_the_front(self):
+        self.assertEqual(analysis.pareto([1, 2], [math.inf, 1.0]), [1])
+
+
+class RankTest(unittest.TestCase):
+    def rank(self, errors, mark=""):
+        return analysis.rank(rows_of(errors, mark), "e", "reference" if mark else "")
+
+    def test_errors_are_relative_to_the_reference_and_scenarios_count_alike(self):
+        best, reference = self.rank({
+            "better": {"near": [0.5, 0.5, 0.5], "far": [20.0]},
+            "same": {"near": [1.0, 1.0, 1.0], "far": [10.0]}}, mark="same")
+        # Half of the error on one, twice on the other: three seeds do not outvote one.
+        self.assertAlmostEqual(best.score, 1.0)
+        self.assertAlmostEqual(reference.score, 1.0)
+
+    def test_the_interval_holds_the_score_and_widens_with_the_spread(self):
+        narrow, wide = (next(item for item in self.rank({
+            "a": {"g": values}, "b": {"g": [1.0] * 4}}, mark="b") if item.point == "a")
+            for values in ([0.9, 1.0, 1.1, 1.0], [0.5, 1.0, 2.0, 1.0]))
+        for item in (narrow, wide):
+            self.assertTrue(item.low <= item.score <= item.high)
+        self.assertGreater(wide.high / wide.low, narrow.high / narrow.low)
+
+    def test_one_that_is_better_on_every_seed_is_always_the_best(self):
+        first, second = self.rank({"a": {"g": [0.1, 0.2, 0.9]}, "b": {"g": [0.2, 0.3, 1.0]}})
+        self.assertEqual((first.point, first.best_share, second.best_share), ("a", 1.0, 0.0))
+
+    def test_one_that_failed_comes_after_all_that_did_not(self):
+        ranked = self.rank({"fast": {"g": [0.01, None]}, "steady": {"g": [1.0, 1.0]},
+                            "lost": {"g": [None, None]}})
+        self.assertEqual([item.point for item in ranked], ["steady", "fast", "lost"])
+        self.assertEqual([item.failed for item in ranked], [0, 1, 2])
+        self.assertEqual(ranked[1].score, math.inf)
+
+    def test_one_that_is_not_finished_is_not_ranked(self):
+        rows = rows_of({"a": {"g": [1.0, 1.0]}, "b": {"g": [0.5]}})
+        self.assertEqual([item.point for item in analysis.rank(rows, "e", "")], ["a"])
+
+    def test_where_the_reference_failed_the_median_takes_its_place(self):
+        rows = rows_of({"a": {"g": [1.0]}, "b": {"g": [3.0]}, "r": {"g": [None]}}, mark="r")
+        reference, whole = analysis.reference_errors(rows, "e", "reference")
+        self.assertEqual((reference, whole), ({("g", 1): 2.0}, False))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: MIT
+"""Experiments are read strictly, keep what is done, and end in one table."""
+import csv
+import io
+import json
+import shutil
+import subprocess
+import unittest
+
+from pretended_experiment import PretendedTest
+from support import ROOT, SCRIPTS
+
+from trajlo_batch import plan, results
+from trajlo_batch.yaml_lines import SuiteError
+from trajlo_experiment import table
+from trajlo_experiment.experiment import read_experiment
+
+SMALL = """
+design: {kind: grid}
+vary:
+  window.segments: [3, 5]
+  weights.kernel: [none, huber]
+marks:
+  defaults: {}
+  chosen: {window.segments: 5, weights.kernel: none}
+sequences:
+  - simulate: hall_os1_16
+    seeds: [1, 2]
+"""
+ONE_AT_A_TIME = SMALL.replace("grid", "one_at_a_time").replace("[3, 5]", "[3, 4, 5]").replace(
+    "weights.kernel: [none, huber]", "rules: {settings: {ours: {}, other: {a.b: 1}}}").replace(
+    "weights.kernel: none", "a.b: 2")
+
+
+class ReadingTest(PretendedTest):
+    def refuse(self, text, message):
+        with self.assertRaisesRegex(SuiteError, message):
+            read_experiment(self.write("e.yaml", text))
+
+    def test_mistakes_are_named_with_their_line(self):
+        self.refuse(SMALL.replace("vary", "varry"), "e.yaml:3.*mean vary?")
+        self.refuse(SMALL.replace("grid", "gird"), "e.yaml:2: kind is one of grid")
+        self.refuse(SMALL.replace("grid", "sobol"), "samples")
+        self.refuse(SMALL.replace("{kind: grid}", "{kind: grid, samples: 3}"), "samples")
+        self.refuse(SMALL + "reference: chosne\n", "defaults, chosen, not chosne")
+        self.refuse(SMALL + "heat_maps: [[window.segments, b]]\n", "heat map")
+        self.refuse(SMALL + "center: {window.segments: 3}\n", "only one_at_a_time has a center")
+
+    def test_two_factors_cannot_set_the_same_option(self):
+        self.refuse(SMALL.replace("weights.kernel: [none, huber]",
+                                  "k: {values: [1], keys: {window.segments: 2}}")
+                    .replace("weights.kernel: none", "k: 1"), "k and window.segments both set")
+
+    def test_what_a_job_decides_cannot_vary(self):
+        self.refuse(SMALL.replace("weights.kernel: [none, huber]", "threads: [1, 2]")
+                    .replace("weights.kernel: none", "threads: 1"), "threads cannot vary")
+
+    def test_several_options_at_once_need_a_value_at_the_centre(self):
+        text = SMALL.replace("grid", "one_at_a_time").replace(
+            "weights.kernel: [none, huber]", "k: {values: [1, 2], keys: {a.b: 2}}").replace(
+            "weights.kernel: none", "k: 1")
+        self.refuse(text, "k drives several keys and needs a value in center")
+        self.assertEqual(read_experiment(self.write("e.yaml", text + "center: {k: 1}\n")).center,
+                         {"k": 1})
+
+    def test_an_option_that_does_not_exist_ends_it_before_it_begins(self):
+        with self.assertRaisesRegex(SuiteError, "no such option"):
+            self.batch(SMALL.replace("weights.kernel", "bad"))
+
+    def test_the_experiments_of_the_project_are_well_formed(self):
+        files = sorted((ROOT / "config" / "experiments").glob("*.yaml"))
+        self.assertGreaterEqual(len(files), 6)
+        for path in files:
+            with self.subTest(path.name):
+                self.assertTrue(read_experiment(path).question)
+                for word in ("# Question:", "# Design:", "# Time:"):
+                    self.assertIn(word, path.read_text())
+
+
+class PointsTest(PretendedTest):
+    def points(self, text):
+        return self.batch(text).suite.points
+
+    def test_a_mark_on_the_grid_is_no_run_of_its_own(self):
+        points = self.points(SMALL)
+        self.assertEqual(len(points), 5)
+        chosen, = (point for point in points if "chosen" in point.marks)
+        self.assertEqual((chosen.in_design, chosen.levels),
+                         (True, {"window.segments": 5, "weights.kernel": "none"}))
+        self.assertEqual([(point.marks, point.options) for point in points if not point.in_design],
+                         [(("defaults",), {})])
+
+    def test_one_at_a_time_takes_what_the_program_shows_as_the_centre(self):
+        points = self.points(ONE_AT_A_TIME)
+        self.assertEqual([(point.levels, point.marks) for point in points], [
+            ({"rules": "ours"}, ("center", "defaults")),
+            ({"rules": "ours", "window.segments": 3}, ()),
+            ({"rules": "ours", "window.segments": 5}, ()),
+            ({"rules": "other"}, ()),
+            ({"rules": "ours", "window.segments": 5}, ("chosen",))])
+        self.assertEqual(points[-1].options, {"window.segments": "5", "a.b": "2"})
+
+    def test_each_value_of_a_scenario_has_a_recording_that_its_runs_share(self):
+        batch = self.batch(SMALL.replace("window.segments", "simulate.motion.speed_mps"))
+        self.assertEqual(len({run.sequence.name for run in batch.runs}), 2 + 2 * 2)
+        self.assertEqual({run.sequence.parameters.get("motion.speed_mps") for run in batch.runs},
+                         {None, "3", "5"})
+        self.assertEqual({run.sequence.group for run in batch.runs}, {"hall_os1_16"})
+
+    def test_values_that_are_added_leave_what_is_done_as_it_is(self):
+        self.finish(self.batch(SMALL), lambda *_: 0.1)
+        states = [run.state for run in self.batch(SMALL.replace("[3, 5]", "[3, 4, 5]")).runs]
+        self.assertEqual((states.count("done"), states.count("missing")), (10, 4))
+
+    def test_a_sampled_design_is_taken_from_its_file_while_it_is_the_same(self):
+        text = SMALL.replace("{kind: grid}", "{kind: random, samples: 3}").replace(
+            "[3, 5]", "{from: 2, to: 9}")
+        self.finish(self.batch(text), lambda *_: 0.1)
+        path = self.places.output / "design.json"
+        saved = json.loads(path.read_text())
+        saved["levels"][0]["window.segments"] = 7.5
+        path.write_text(json.dumps(saved))
+        self.assertEqual(self.points(text)[0].levels["window.segments"], 7.5)
+        other = self.points(text.replace("samples: 3", "samples: 3, seed: 2"))
+        self.assertNotEqual(other[0].levels["window.segments"], 7.5)
+
+
+class TableTest(PretendedTest):
+    def rows(self, text=SMALL, **finished):
+        batch = self.batch(text)
+        self.finish(batch, finished.pop("error_of", lambda *_: 0.1), **finished)
+        return table.collect(self.batch(text))
+
+    def test_a_row_has_what_varied_every_metric_and_the_versions(self):
+        row = self.rows()[0]
+        self.assertEqual((row["row"], row["window.segments"], row["weights.kernel"], row["group"],
+                          row["seed"], row["result"]), (1, 3, "none", "hall_os1_16", 1, "ok"))
+        self.assertEqual((row["ate_rmse_m"], row["ate_rotation_rmse_deg"], row["rpe_1m_rmse_m"],
+                          row["diverged"], row["exit_code"]), (0.1, 1.0, 0.1, False, 0))
+        self.assertEqual((row["rounds_per_window"], row["iterations_per_window"],
+                          row["rejected_steps"]), (3.0, 4.0, 3))
+        self.assertAlmostEqual(row["smallest_eigenvalue_median"], 0.15)
+        self.assertEqual((row["smallest_eigenvalue_min"], row["share_flagged"], row["share_gap"],
+                          row["share_lost"]), (0.1, 0.5, 0.5, 0.0))
+        self.assertEqual(row["cpu_ms_per_data_second"], 500.0)
+        self.assertIn("trajlo_run 0.1.0", row["program"])
+
+    def test_a_factor_that_a_point_leaves_alone_has_the_value_of_the_run(self):
+        row = self.rows()[-1]
+        self.assertEqual((row["marks"], row["in_design"], row["window.segments"]),
+                         ("defaults", 0, 4))
+
+    def test_a_run_that_left_nothing_is_a_row_as_well(self):
+        batch = self.batch(SMALL)
+        self.finish(batch, lambda *_: None)
+        shutil.rmtree(self.places.output / batch.runs[0].folder / "result")
+        rows = table.collect(batch)
+        self.assertEqual({row["result"] for row in rows}, {"x"})
+        self.assertEqual({row["reason"] for row in rows}, {"too far"})
+        self.assertIsNone(rows[0]["rejected_steps"])
+        self.assertEqual(rows[0].keys(), rows[1].keys())
+
+    def test_the_csv_file_has_a_line_a_run(self):
+        lines = list(csv.DictReader(io.StringIO(results.to_csv(self.rows()))))
+        self.assertEqual([line["row"] for line in lines], [str(i) for i in range(1, 11)])
+
+    def test_the_command_of_a_row_runs_and_evaluates_in_a_folder_of_its_own(self):
+        self.finish(self.batch(SMALL), lambda *_: 0.1)
+        plan.write_json(self.places.output / "recordings/hall_os1_16-seed1/there.json", {})
+        command = [SCRIPTS / "experiment", self.folder / "e.yaml", "--build", self.places.build,
+                   "--output", self.places.output, "--command"]
+        done = subprocess.run([*command, "1"], capture_output=True, text=True, check=True)
+        run, evaluate = done.stdout.strip().split("; ")
+        self.assertEqual(run, f"{self.places.build}/apps/trajlo_run --output=row-1 --threads=1")
+        self.assertEqual(evaluate, "trajlo_evaluate row-1/trajectory.tum --truth=t.tum "
+                                   "--output=row-1/evaluation")
+        wrong = subprocess.run([*command, "11"], capture_output=True, text=True, check=False)
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("count from 1 to 10", wrong.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: MIT
+"""Figures and pages of experiments show what happened, also what failed."""
+import math
+import re
+import unittest
+
+from pretended_experiment import PretendedTest
+
+from trajlo_batch import plan
+from trajlo_experiment import experiment_report, figures_heat, figures_sensitivity, table
+from trajlo_experiment.figures_parallel import height_on_axis
+from trajlo_experiment.figures_tornado import draw_tornado, swings
+from trajlo_experiment.figures_tradeoff import tradeoff
+from trajlo_experiment.findings import Findings
+from trajlo_report import theme as themes
+
+SEQUENCES = """
+sequences:
+  - {simulate: hall_os1_16, seeds: [1, 2, 3]}
+  - {simulate: spin_avia, seeds: [1, 2, 3]}
+"""
+GRID = """
+design: {kind: grid}
+vary:
+  a.sigma_m: {values: [0.1, 1, 10], label: "σ [m]"}
+  a.kernel: [none, huber]
+marks:
+  paper: {a.sigma_m: 1, a.kernel: huber}
+  other: {a.sigma_m: 3, a.kernel: huber}
+reference: paper
+""" + SEQUENCES
+ONE_AT_A_TIME = """
+design: {kind: one_at_a_time}
+center: {a.sigma_m: 1, a.b: 2}
+vary:
+  a.sigma_m: [0.1, 1, 10]
+  a.b: [1, 2, 3]
+  rules: {settings: {ours: {}, theirs: {c.d: 1}}}
+""" + SEQUENCES
+SAMPLED = """
+design: {kind: sobol, samples: 16}
+vary:
+  a.sigma_m: {from: 0.1, to: 10, scale: log}
+  a.b: {from: 1, to: 3}
+  a.kernel: [none, huber]
+""" + SEQUENCES
+
+
+def bowl(levels, group, seed):
+    """Best at 1, twice as bad on one scenario; large sigmas fail on the other with seed 3."""
+    sigma = levels.get("a.sigma_m", 1)
+    if sigma > 5 and group == "spin_avia" and seed == 3:
+        return None
+    worse = 1 + abs(math.log10(sigma)) + abs(levels.get("a.b", 2) - 2) / 10
+    worse *= 2 if levels.get("rules") == "theirs" else 1
+    return 0.01 * seed * worse * (2 if group == "spin_avia" else 1)
+
+
+class FiguresTest(PretendedTest):
+    def findings(self, text, error_of=bowl, finish=True):
+        batch = self.batch(text)
+        if finish:
+            self.finish(batch, error_of, lambda levels: 1.0 + levels.get("a.b", 1))
+        themes.apply(themes.LIGHT)
+        return Findings(batch.suite, table.collect(batch))
+
+    def test_a_cell_is_the_median_over_its_seeds_in_centimetres(self):
+        findings = self.findings(GRID)
+        across, upwards = findings.study.factors
+        values, failed = figures_heat.cells(findings, findings.design, "spin_avia", across, upwards,
+                                            [0.1, 1, 10], ["none", "huber"])
+        self.assertEqual(values.round(6).tolist(), [[8, 4, 8], [8, 4, 8]])
+        self.assertEqual(failed.tolist(), [[0, 0, 1], [0, 0, 1]])
+
+    def test_marks_lie_between_the_levels_of_a_logarithmic_axis(self):
+        findings = self.findings(GRID)
+        across, _ = findings.study.factors
+        place = figures_heat.place_among(across, 10 ** 0.5, [0.1, 1, 10])
+        self.assertAlmostEqual(place, 1.5)
+        self.assertIsNone(figures_heat.place_among(across, 20, [0.1, 1, 10]))
+
+    def test_a_mark_beside_the_design_is_shown_and_not_mixed_in(self):
+        findings = self.findings(GRID)
+        self.assertEqual([item.center for item in findings.bins(findings.study.factors[0])],
+                         [0.1, 1, 10])
+        self.assertEqual(findings.marks["other"]["a.sigma_m"], 3)
+
+    def test_one_at_a_time_compares_only_what_differs_in_one_factor(self):
+        findings = self.findings(ONE_AT_A_TIME)
+        sigma = findings.study.factors[0]
+        self.assertEqual([(item.center, len(item.rows)) for item in findings.bins(sigma)],
+                         [(0.1, 6), (1, 6), (10, 6)])
+        self.assertEqual({row["a.b"] for item in findings.bins(sigma) for row in item.rows}, {2})
+
+    def test_swings_are_relative_to_the_centre(self):
+        found = dict(swings(self.findings(ONE_AT_A_TIME)))
+        (text, low), (_, high) = found["sigma [m]"]
+        self.assertEqual((text, round(low.score, 6), high.score), ("0.1", 2.0, math.inf))
+        self.assertAlmostEqual(found["rules: theirs"][0][1].score, 2.0)
+
+    def test_a_tornado_has_the_widest_swing_on_top(self):
+        findings = self.findings(ONE_AT_A_TIME)
+        axes, = draw_tornado(findings, themes.LIGHT).axes
+        labels = [label.get_text() for label in axes.get_yticklabels()]
+        self.assertEqual(labels, ["b", "rules: theirs", "sigma [m]"])
+
+    def test_the_front_of_error_and_time_leaves_out_what_is_beaten(self):
+        findings = self.findings(ONE_AT_A_TIME)
+        names, costs, errors, front = tradeoff(findings, "hall_os1_16")
+        self.assertEqual(len(names), 6)
+        self.assertEqual([(costs[i], round(errors[i], 6)) for i in front],
+                         [(1000.0, 2.2), (1500.0, 2.0)])
+
+    def test_a_sampled_range_falls_into_parts_with_all_its_rows(self):
+        findings = self.findings(SAMPLED)
+        bins = findings.bins(findings.study.factors[0])
+        self.assertEqual(sum(len(item.rows) for item in bins), 16 * 6)
+        self.assertLessEqual(len(bins), 6)
+
+    def test_an_axis_of_the_parallel_plot_runs_from_its_least_to_its_most(self):
+        findings = self.findings(GRID)
+        sigma, kernel = findings.study.factors
+        for level, height in ((0.1, 0.0), (1, 0.5), (10, 1.0)):
+            self.assertAlmostEqual(height_on_axis(findings, sigma, level), height)
+        self.assertEqual(height_on_axis(findings, kernel, "huber"), 1.0)
+
+    def test_where_nothing_failed_there_is_no_figure_of_failures(self):
+        findings = self.findings(GRID, lambda *_: 0.1)
+        self.assertIsNone(figures_sensitivity.draw_failures(findings, themes.LIGHT))
+
+    def report(self, text, error_of=bowl):
+        batch = self.batch(text)
+        self.finish(batch, error_of)
+        experiment_report.write_report(batch)
+        self.assert_self_contained(self.places.output / "report.html")
+        drawn = {path.name for path in (self.places.output / "figures").iterdir()}
+        self.assertEqual({name.replace(".svg", ".png") for name in drawn},
+                         {name for name in drawn if name.endswith(".png")})
+        return ({name.removesuffix(".png") for name in drawn if name.endswith(".png")},
+                re.sub(r"base64,[^\"]*", "", (self.places.output / "report.html").read_text()))
+
+    def test_a_grid_has_all_figures_but_the_tornado(self):
+        drawn, text = self.report(GRID)
+        self.assertEqual(drawn, {"heat_map", "sensitivity", "levels_a_kernel", "failures", "pareto",
+                                 "parallel"})
+        self.assertIn("x: too far", text)
+        self.assertIn("2 with an x", text)
+
+    def test_one_at_a_time_has_a_tornado_and_no_map(self):
+        drawn, text = self.report(ONE_AT_A_TIME)
+        self.assertEqual(drawn, {"tornado", "sensitivity", "levels_rules", "failures", "pareto"})
+        # The centre is ranked first: the table has it with its mark.
+        self.assertRegex(text, r'<tr class="best"><td>1</td>.*center')
+
+    def test_a_sampled_design_has_a_map_of_points(self):
+        drawn, _ = self.report(SAMPLED)
+        self.assertIn("heat_map", drawn)
+
+    def test_when_everything_fails_the_page_says_so(self):
+        _, text = self.report(GRID, lambda *_: None)
+        self.assertIn("42 with an x", text)
+
+    def test_of_an_unfinished_experiment_the_finished_runs_are_shown(self):
+        batch = self.batch(GRID)
+        plan.write_plan(batch, keep_recordings=True)
+        for run in batch.runs[:13]:
+            self.write_run(run, 0.1, 1.0)
+        rows = experiment_report.write_report(batch)
+        self.assertEqual(experiment_report.summary(rows), "13 ended well, 29 not finished")
+        self.assertTrue((self.places.output / "figures" / "heat_map.svg").is_file())
+
+    def test_an_experiment_that_has_not_begun_has_a_page(self):
+        batch = self.batch(GRID)
+        experiment_report.write_report(batch)
+        self.assert_self_contained(self.places.output / "report.html")
+
+    def test_the_same_results_give_the_same_figures(self):
+        self.report(GRID)
+        path = self.places.output / "figures" / "heat_map.svg"
+        first = path.read_bytes()
+        self.report(GRID)
+        self.assertEqual(re.sub(rb"clip-path.*", b"", path.read_bytes()),
+                         re.sub(rb"clip-path.*", b"", first))
+
+
+if __name__ == "__main__":
+    unittest.main()
