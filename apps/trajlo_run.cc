@@ -44,7 +44,7 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
       reads a ROS 1 bag, a ROS 2 bag (.db3, .mcap, or the folder), a capture of Velodyne or Ouster
       packets (.pcap), or a folder of bags that follow each other
   trajlo_run --input=flight.bag --output=result --set=input.topics=/os1_cloud_node1/points
-      one of several topics; [/a,/b] takes two LiDARs (trajlo_info shows what is there)
+      one of several topics; [/a,/b] takes two LiDARs (trajlo_info prints the line to use)
   trajlo_run --input=recording --output=result --config=config/outdoor.yaml
       options from a file; several, separated by commas, override each other
   trajlo_run --input=recording --output=result --set=window.segments=3,map.voxel_size_m=0.4

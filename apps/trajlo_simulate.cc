@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/io/conversion/scan_bag_writer.h"
 #include "core/simulation/recording_writer.h"
 #include "core/simulation/scenario.h"
 #include "core/simulation/scenario_parameters.h"
@@ -26,6 +28,11 @@ DEFINE_string(set, "", "parameters to change: key=value,key=value,...");
 DEFINE_int32(threads, 0, "0 for all processors; the recording does not depend on it");
 DEFINE_bool(list, false, "list the scenarios and stop");
 DEFINE_bool(list_parameters, false, "list the parameters of --scenario with their values and stop");
+DEFINE_string(format, "pcd", "pcd: a folder of scans; bag: recording.bag for ROS 1");
+DEFINE_string(
+    bag_layout, "",
+    "of the points in the bag: ouster, velodyne or livox; empty: as each sensor's driver");
+DEFINE_string(bag_compression, "none", "of the bag: none, lz4 or bz2");
 DECLARE_bool(help);
 DEFINE_bool(overwrite, false, "replace what is in the output folder");
 
@@ -52,6 +59,8 @@ constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
   trajlo_simulate --scenario=hall_os1_16 --output=again --set=motion.kind=replay,motion.replay_file=run.tum
       flies a trajectory of yours in the hall
   trajlo_simulate --scenario=hall_os1_16 --output=broken --set=faults.dropped_scan_fraction=0.05
+  trajlo_simulate --scenario=hall_os1_16 --output=bagged --format=bag --bag_compression=lz4
+      bagged/recording.bag in place of the scans, with the truth on /truth
 
 Exit codes: 0 done, 1 wrong usage, 5 the output cannot be written.)";
 
@@ -80,6 +89,35 @@ Scenario ScenarioFromFlags() {
   if (FLAGS_seed != 0) scenario.seed = static_cast<std::uint64_t>(FLAGS_seed);
   ApplySettings(FLAGS_set, &scenario);
   return scenario;
+}
+
+std::optional<trajlo::simulation::BagFormat> BagFormatFromFlags(const Scenario& scenario) {
+  if (FLAGS_format == "pcd" && FLAGS_bag_layout.empty() && FLAGS_bag_compression == "none") {
+    return {};
+  }
+  if (FLAGS_format == "pcd") {
+    throw std::invalid_argument("--bag_layout and --bag_compression need --format=bag");
+  }
+  if (FLAGS_format != "bag") {
+    throw std::invalid_argument("--format: must be pcd or bag, found '" + FLAGS_format + "'");
+  }
+  // Said before anything older is removed.
+  if (scenario.motion_corrected) {
+    throw std::invalid_argument("motion-corrected scans are written as KITTI has them, in no bag");
+  }
+  trajlo::simulation::BagFormat format;
+  format.layout = trajlo::ParseCloudLayout(FLAGS_bag_layout);
+  if (!format.layout && !FLAGS_bag_layout.empty()) {
+    throw std::invalid_argument("--bag_layout: must be ouster, velodyne or livox, found '" +
+                                FLAGS_bag_layout + "'");
+  }
+  const auto compression = trajlo::ParseBagCompression(FLAGS_bag_compression);
+  if (!compression) {
+    throw std::invalid_argument("--bag_compression: must be none, lz4 or bz2, found '" +
+                                FLAGS_bag_compression + "'");
+  }
+  format.compression = *compression;
+  return format;
 }
 
 /// The examples, and the flags of this command only (gflags would add those of all libraries).
@@ -118,15 +156,16 @@ void PrepareOutput(const fs::path& output) {
     for (const char* old : {"scans", "velodyne"}) fs::remove_all(output / old, error);
     for (int id = 0; fs::remove_all(output / ("lidar" + std::to_string(id)), error) > 0; ++id) {
     }
-    for (const char* old : {"timestamps.txt", "times.txt", "poses.txt"}) {
+    for (const char* old : {"recording.bag", "timestamps.txt", "times.txt", "poses.txt"}) {
       fs::remove(output / old, error);
     }
   }
 }
 
-void Run(const trajlo::simulation::Simulator& simulator) {
+void Run(const trajlo::simulation::Simulator& simulator,
+         const std::optional<trajlo::simulation::BagFormat>& bag) {
   const auto begin = std::chrono::steady_clock::now();
-  trajlo::simulation::RecordingWriter writer(simulator, FLAGS_output);
+  trajlo::simulation::RecordingWriter writer(simulator, FLAGS_output, bag);
   trajlo::simulation::SimulateScans(simulator, FLAGS_threads,
                                     [&](const auto& scan) { writer.Write(scan); });
   writer.Finish();
@@ -162,10 +201,11 @@ int main(int argc, char** argv) {
       return kOk;
     }
     if (FLAGS_output.empty()) throw std::invalid_argument("--output is missing");
+    const auto bag = BagFormatFromFlags(scenario);
     const trajlo::simulation::Simulator simulator(scenario);
     try {
       PrepareOutput(FLAGS_output);
-      Run(simulator);
+      Run(simulator, bag);
     } catch (const std::runtime_error& error) {
       std::fprintf(stderr, "trajlo_simulate: %s\n", error.what());
       return kOutputNotWritable;

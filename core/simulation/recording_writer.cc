@@ -88,6 +88,13 @@ std::string KittiLine(const SE3& T) {
   return line + "\n";
 }
 
+/// The LiDARs of a bag, in the order of the extrinsics.
+std::string TopicsYaml(const std::vector<std::string>& topics) {
+  std::string list;
+  for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
+  return "input:\n  topics: [" + list + "]\n";
+}
+
 }  // namespace
 
 std::string SecondsText(std::int64_t t_ns) {
@@ -99,9 +106,18 @@ std::string SecondsText(std::int64_t t_ns) {
   return text;
 }
 
-RecordingWriter::RecordingWriter(const Simulator& simulator, fs::path directory)
+RecordingWriter::RecordingWriter(const Simulator& simulator, fs::path directory,
+                                 const std::optional<BagFormat>& bag)
     : simulator_(simulator), directory_(std::move(directory)) {
   const Scenario& scenario = simulator.scenario();
+  if (bag && scenario.motion_corrected) {
+    throw std::invalid_argument("motion-corrected scans are written as KITTI has them, in no bag");
+  }
+  if (bag) {
+    MakeFolder(directory_);
+    bag_.emplace(simulator, directory_ / "recording.bag", *bag);
+    return;
+  }
   for (std::size_t id = 0; id < scenario.rig.size(); ++id) {
     const fs::path folder =
         scenario.rig.size() == 1 ? directory_ : directory_ / ("lidar" + std::to_string(id));
@@ -112,6 +128,12 @@ RecordingWriter::RecordingWriter(const Simulator& simulator, fs::path directory)
 
 void RecordingWriter::Write(const SimulatedScan& simulated) {
   const LidarScan& scan = simulated.scan;
+  ++scans_;
+  points_ += static_cast<std::int64_t>(scan.points.size());
+  if (bag_) {
+    bag_->Write(simulated);
+    return;
+  }
   Stream& stream = streams_.at(static_cast<std::size_t>(scan.lidar_id));
   const std::size_t number = stream.stamps_ns.size();
   if (scan.has_point_times) {
@@ -120,11 +142,23 @@ void RecordingWriter::Write(const SimulatedScan& simulated) {
     WriteKittiBin(stream.directory / "velodyne" / NumberedName(number, "bin"), scan);
   }
   stream.stamps_ns.push_back(scan.stamp_ns);
-  ++scans_;
-  points_ += static_cast<std::int64_t>(scan.points.size());
 }
 
 void RecordingWriter::Finish() {
+  WriteStamps();
+  if (bag_) bag_->Finish();
+  std::string truth;
+  for (std::int64_t t = simulator_.start_ns(); t <= simulator_.end_ns(); t += kTruthStepNs) {
+    truth += TumLine(t, simulator_.TrueWorldFromBody(t));
+  }
+  WriteFile(directory_ / "truth.tum", truth);
+  WriteFile(directory_ / "scenario.yaml", ScenarioYaml(simulator_.scenario()));
+  WriteFile(directory_ / "rig.yaml",
+            RigYaml(simulator_.scenario()) + (bag_ ? TopicsYaml(bag_->topics()) : ""));
+  WriteFile(directory_ / "picture.svg", ScenePicture(simulator_));
+}
+
+void RecordingWriter::WriteStamps() const {
   for (std::size_t id = 0; id < streams_.size(); ++id) {
     const Stream& stream = streams_[id];
     if (simulator_.scenario().motion_corrected) {
@@ -135,15 +169,6 @@ void RecordingWriter::Finish() {
     for (const std::int64_t t_ns : stream.stamps_ns) stamps += SecondsText(t_ns) + "\n";
     WriteFile(stream.directory / "timestamps.txt", stamps);
   }
-  constexpr std::int64_t kTruthStepNs = 1'000'000;
-  std::string truth;
-  for (std::int64_t t = simulator_.start_ns(); t <= simulator_.end_ns(); t += kTruthStepNs) {
-    truth += TumLine(t, simulator_.TrueWorldFromBody(t));
-  }
-  WriteFile(directory_ / "truth.tum", truth);
-  WriteFile(directory_ / "scenario.yaml", ScenarioYaml(simulator_.scenario()));
-  WriteFile(directory_ / "rig.yaml", RigYaml(simulator_.scenario()));
-  WriteFile(directory_ / "picture.svg", ScenePicture(simulator_));
 }
 
 void RecordingWriter::WriteKittiTables(const Stream& stream, int lidar_id) const {

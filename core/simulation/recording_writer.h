@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/simulation/simulated_bag.h"
 #include "core/simulation/simulated_scan.h"
 #include "core/simulation/simulator.h"
 
@@ -23,10 +25,19 @@ namespace trajlo::simulation {
 /// motion-corrected recording has KITTI's velodyne/000000.bin (x y z intensity, float32), times.txt
 /// (seconds since the start of the recording) and poses.txt (3x4 poses of the LiDAR at those times,
 /// relative to the first) in place of scans/ and timestamps.txt.
+///
+/// With a BagFormat, recording.bag takes the place of scans/ and timestamps.txt (see SimulatedBag),
+/// and rig.yaml names its topics.
+///
+/// All forms hold the same points at the same times, to the bit: positions are float32, and times
+/// are such that float32 seconds hold them (StorableOffsetNs). Only intensities differ: Livox's
+/// messages have whole numbers.
 class RecordingWriter {
  public:
-  /// Makes the folders. Throws std::runtime_error naming the path that cannot be written.
-  RecordingWriter(const Simulator& simulator, std::filesystem::path directory);
+  /// Makes the folders. Throws std::runtime_error naming the path that cannot be written, and
+  /// std::invalid_argument for motion-corrected scans in a bag.
+  RecordingWriter(const Simulator& simulator, std::filesystem::path directory,
+                  const std::optional<BagFormat>& bag = {});
 
   void Write(const SimulatedScan& simulated);
   /// Writes what goes beside the scans.
@@ -40,11 +51,14 @@ class RecordingWriter {
     std::filesystem::path directory;
     std::vector<std::int64_t> stamps_ns;
   };
+  void WriteStamps() const;
   void WriteKittiTables(const Stream& stream, int lidar_id) const;
 
   const Simulator& simulator_;
   std::filesystem::path directory_;
+  /// Empty if a bag is written.
   std::vector<Stream> streams_;
+  std::optional<SimulatedBag> bag_;
   std::int64_t scans_ = 0;
   std::int64_t points_ = 0;
 };

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/simulation/point_time.h"
 #include "core/simulation/random.h"
 #include "core/simulation/scenes/scene_builder.h"
 
@@ -102,7 +103,14 @@ SimulatedScan Simulator::SimulateScan(int lidar_id, std::int64_t index) const {
   for (const std::vector<LidarPoint>& part : parts) {
     simulated.scan.points.insert(simulated.scan.points.end(), part.begin(), part.end());
   }
-  if (scenario_.motion_corrected) CorrectMotion(&simulated);
+  if (scenario_.motion_corrected) {
+    CorrectMotion(&simulated);
+  } else {
+    for (LidarPoint& point : simulated.scan.points) {
+      point.t_ns =
+          simulated.sweep_start_ns + StorableOffsetNs(point.t_ns - simulated.sweep_start_ns);
+    }
+  }
   return simulated;
 }
 

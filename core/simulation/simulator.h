@@ -25,7 +25,8 @@ class Simulator {
   SE3 TrueWorldFromBody(std::int64_t t_ns) const;
   /// The sweeps that lie within the recording.
   std::int64_t ScanCount(int lidar_id) const;
-  /// One scan before any fault. Every ray is cast from the exact pose at its own time.
+  /// One scan before any fault. Every ray is cast from the exact pose at its own time, which the
+  /// point tells to 4 ns (see StorableOffsetNs).
   SimulatedScan SimulateScan(int lidar_id, std::int64_t index) const;
 
   const Scenario& scenario() const { return scenario_; }

@@ -182,9 +182,14 @@ RecordingInspection InspectClouds(const fs::path& path, const Open& open,
 
 RecordingInspection InspectRecording(const std::string& path, const InspectionOptions& options) {
   const std::vector<std::string> parts = InputPaths(path);
-  if (!parts.empty() && !HoldsClouds(parts.front())) return InspectFolders(path, parts, options);
-  return InspectClouds(
-      path, [&] { return OpenClouds(path); }, options);
+  const bool is_folder = !parts.empty() && !HoldsClouds(parts.front());
+  RecordingInspection inspection = is_folder ? InspectFolders(path, parts, options)
+                                             : InspectClouds(
+                                                   path, [&] { return OpenClouds(path); }, options);
+  std::error_code error;
+  const fs::path rig = fs::path(path) / "rig.yaml";
+  if (fs::is_regular_file(rig, error)) inspection.rig_config = rig.string();
+  return inspection;
 }
 
 }  // namespace trajlo

@@ -74,6 +74,8 @@ struct CloudInspection {
 /// What a recording holds and how trajlo_run will understand it.
 struct RecordingInspection {
   std::string path;
+  /// A config with extrinsics that lies in the recording's folder, as simulated ones have it.
+  std::string rig_config;
   /// All topics of the file; those with clouds come again in `clouds`.
   std::vector<Topic> topics;
   std::vector<CloudInspection> clouds;

@@ -11,14 +11,18 @@ namespace {
 struct KnownDataset {
   const char* config;
   std::vector<std::string> topics;
+  /// The config says that stamps mark the end of the sweep.
+  bool stamps_at_end;
+  /// The config says where the LiDARs sit.
+  bool has_extrinsics;
 };
 
 const std::vector<KnownDataset>& KnownDatasets() {
   static const std::vector<KnownDataset> datasets = {
-      {"ntu_viral", {"/os1_cloud_node1/points", "/os1_cloud_node2/points"}},
-      {"ntu_viral_horizontal", {"/os1_cloud_node1/points"}},
-      {"ntu_viral_vertical", {"/os1_cloud_node2/points"}},
-      {"hilti2021_both", {"/os_cloud_node/points", "/livox/lidar"}},
+      {"ntu_viral", {"/os1_cloud_node1/points", "/os1_cloud_node2/points"}, true, true},
+      {"ntu_viral_horizontal", {"/os1_cloud_node1/points"}, true, true},
+      {"ntu_viral_vertical", {"/os1_cloud_node2/points"}, true, true},
+      {"hilti2021_both", {"/os_cloud_node/points", "/livox/lidar"}, false, false},
   };
   return datasets;
 }
@@ -44,7 +48,7 @@ std::string ConfigOf(const CloudInspection& cloud) {
   return "";
 }
 
-/// The topics of a dataset that is known, in its order; empty if it is none.
+/// The dataset with exactly these topics; null if none is known.
 const KnownDataset* FindDataset(const std::vector<CloudInspection>& clouds) {
   for (const KnownDataset& dataset : KnownDatasets()) {
     const bool same =
@@ -77,6 +81,32 @@ std::string TopicList(const std::vector<std::string>& topics) {
   return "[" + list + "]";
 }
 
+/// True if the evidence says that stamps mark the start of the sweep.
+bool HasStartStamps(const std::vector<CloudInspection>& clouds) {
+  return std::any_of(clouds.begin(), clouds.end(), [](const CloudInspection& cloud) {
+    const TimeConvention& convention = cloud.convention;
+    return convention.origin == TimeOrigin::kSweepStart && convention.HasPointTimes() &&
+           convention.stamp_at == StampAt::kStart;
+  });
+}
+
+/// What is not known about where the LiDARs sit.
+void AddExtrinsicRemarks(const std::vector<CloudInspection>& clouds, bool is_folder,
+                         RunAdvice* advice) {
+  if (clouds.size() == 1) {
+    advice->remarks.push_back(
+        "poses will be those of the LiDAR unless sensor.T_body_lidar says where it sits on the "
+        "body");
+    return;
+  }
+  advice->remarks.push_back(
+      "where the LiDARs sit is not known: give sensor.T_body_lidar, one pose for each in this "
+      "order, in a config of your own (--config=...,rig.yaml)");
+  const std::string& first = clouds.front().topic;
+  advice->remarks.push_back("to run on one LiDAR: " +
+                            (is_folder ? "--input=" + first : "--set=input.topics=" + first));
+}
+
 }  // namespace
 
 RunAdvice AdviseRun(const RecordingInspection& recording) {
@@ -88,35 +118,34 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
   }
   if (clouds.empty()) return advice;
   const KnownDataset* dataset = FindDataset(clouds);
-  advice.config = dataset != nullptr ? dataset->config : ConfigOf(clouds.front());
+  const std::string config = dataset != nullptr ? dataset->config : ConfigOf(clouds.front());
+  if (!config.empty()) advice.config = "config/datasets/" + config + ".yaml";
   std::vector<std::string> topics;
   for (const CloudInspection& cloud : clouds) topics.push_back(cloud.topic);
   if (dataset != nullptr) topics = dataset->topics;
+
+  std::string settings;
   // Topics of folders are the folders themselves, which --input names already.
   const bool is_folder = Contains(clouds.front().type, " files");
-  if (is_folder) topics.clear();
-
-  advice.command = "trajlo_run " + Quoted("--input=" + recording.path) + " --output=result";
-  if (!advice.config.empty()) {
-    advice.config = "config/datasets/" + advice.config + ".yaml";
-    advice.command += " --config=" + advice.config;
-  }
   const bool choose = topics.size() > 1 || recording.clouds.size() > clouds.size();
-  if (choose && !is_folder) {
-    advice.command += " " + Quoted("--set=input.topics=" + TopicList(topics));
+  if (choose && !is_folder) settings = "input.topics=" + TopicList(topics);
+  if (dataset != nullptr && dataset->stamps_at_end && HasStartStamps(clouds)) {
+    settings += std::string(settings.empty() ? "" : ",") + "input.stamp_at=start";
+    advice.remarks.push_back(
+        "stamps of this dataset mark the end of the sweep, but by the evidence these mark its "
+        "start: check input.stamp_at");
   }
-  if (clouds.size() > 1 && dataset == nullptr) {
-    advice.remarks.push_back(
-        "where the LiDARs sit is not known: give sensor.T_body_lidar, one pose for each in the "
-        "order of the topics, in a config of your own (--config=...,rig.yaml)");
-    advice.remarks.push_back(
-        "to run on one LiDAR only: --set=input.topics=" +
-        (is_folder ? std::string("... or its folder as --input") : clouds.front().topic));
-  } else if (dataset == nullptr) {
-    advice.remarks.push_back(
-        "poses will be those of the LiDAR unless sensor.T_body_lidar says "
-        "where it sits on the body");
+  advice.command = "trajlo_run " + Quoted("--input=" + recording.path) + " --output=result";
+  std::string configs = advice.config;
+  if (!recording.rig_config.empty()) {
+    configs += (configs.empty() ? "" : ",") + recording.rig_config;
   }
+  if (!configs.empty()) advice.command += " " + Quoted("--config=" + configs);
+  if (!settings.empty()) advice.command += " " + Quoted("--set=" + settings);
+
+  const bool placed =
+      !recording.rig_config.empty() || (dataset != nullptr && dataset->has_extrinsics);
+  if (!placed) AddExtrinsicRemarks(clouds, is_folder, &advice);
   for (const CloudInspection& cloud : clouds) {
     if (cloud.time_problem.empty()) continue;
     advice.remarks.push_back("say how the point times of " + cloud.topic +

@@ -93,4 +93,18 @@ std::unique_ptr<CloudMessageReader> OpenClouds(const fs::path& path) {
   return std::make_unique<ChainedClouds>(std::move(parts));
 }
 
+std::vector<fs::path> Ros1BagsOf(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return Ros1Bags(path);
+  return BeginsWith(FirstBytes(path), "#ROSBAG V") ? std::vector<fs::path>{path}
+                                                   : std::vector<fs::path>();
+}
+
+std::unique_ptr<RawMessageReader> OpenMessages(const fs::path& path) {
+  std::error_code error;
+  const bool is_folder = fs::is_directory(path, error);
+  if (!is_folder && !Ros1BagsOf(path).empty()) return std::make_unique<Ros1BagReader>(path);
+  return std::make_unique<Rosbag2Reader>(path);
+}
+
 }  // namespace trajlo

@@ -27,4 +27,12 @@ std::vector<std::filesystem::path> Ros1BagsOf(const std::filesystem::path& path)
 /// InputError.
 std::unique_ptr<RawMessageReader> OpenMessages(const std::filesystem::path& path);
 
+/// The ROS 1 bags that `path` names: itself, or those in the folder, in the natural order of their
+/// names. Empty if it names none.
+std::vector<std::filesystem::path> Ros1BagsOf(const std::filesystem::path& path);
+
+/// Opens a ROS 1 bag, or a ROS 2 bag (a file or a folder), whatever messages it holds. Throws
+/// InputError.
+std::unique_ptr<RawMessageReader> OpenMessages(const std::filesystem::path& path);
+
 }  // namespace trajlo

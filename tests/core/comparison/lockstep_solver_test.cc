@@ -24,7 +24,7 @@ struct LockstepRun {
   std::vector<ControlPose> poses;
 };
 
-LockstepRun Run(const std::vector<SolverVariant>& variants, int every) {
+LockstepRun RunAll(const std::vector<SolverVariant>& variants, int every) {
   SyntheticWorld world;
   LockstepRun run;
   LockstepOptions options;
@@ -52,7 +52,7 @@ TEST(Lockstep, AllSolversOfOneEnergyEndAtTheSamePosesAndCost) {
       Variant("gauss_newton", "solver.kind=gauss_newton"), Variant("ceres", ""),
       Variant("dogleg", "solver.ceres.trust_region=dogleg"),
       Variant("point", "solver.ceres.registration=point")};
-  const LockstepRun run = Run(variants, 1);
+  const LockstepRun run = RunAll(variants, 1);
   ASSERT_GT(run.windows, 5);
   ASSERT_EQ(run.records.size(), 4u * static_cast<std::size_t>(run.windows));
   LockstepTotals ceres;
@@ -69,8 +69,8 @@ TEST(Lockstep, AllSolversOfOneEnergyEndAtTheSamePosesAndCost) {
 }
 
 TEST(Lockstep, DoesNotChangeTheRunAndComparesEveryNthWindow) {
-  const LockstepRun all = Run({Variant("gauss_newton", "solver.kind=gauss_newton")}, 1);
-  const LockstepRun some = Run({Variant("tukey", "weights.kernel=tukey")}, 3);
+  const LockstepRun all = RunAll({Variant("gauss_newton", "solver.kind=gauss_newton")}, 1);
+  const LockstepRun some = RunAll({Variant("tukey", "weights.kernel=tukey")}, 3);
   EXPECT_EQ(some.records.size(), static_cast<std::size_t>((some.windows + 2) / 3));
   ASSERT_EQ(all.poses.size(), some.poses.size());
   for (std::size_t i = 0; i < all.poses.size(); ++i) {

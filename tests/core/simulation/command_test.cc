@@ -82,6 +82,25 @@ TEST_F(SimulateCommand, AnOutputThatCannotBeWrittenExitsWithFive) {
   EXPECT_NE(outcome.output.find("file/inside"), std::string::npos);
 }
 
+TEST_F(SimulateCommand, ABagTakesThePlaceOfTheScans) {
+  const std::string run = "--scenario=hall_os1_16 --duration_s=0.2 --output=" + Out("a");
+  ASSERT_EQ(Run(run).exit_code, 0);
+  ASSERT_EQ(Run(run + " --format=bag --bag_layout=livox --overwrite").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "a" / "recording.bag"));
+  EXPECT_FALSE(fs::exists(folder_ / "a" / "scans"));
+  EXPECT_EQ(Run(run + " --format=zip").exit_code, 1);
+  EXPECT_EQ(Run(run + " --bag_layout=livox").exit_code, 1);
+  EXPECT_EQ(Run(run + " --format=bag --bag_layout=square").exit_code, 1);
+  EXPECT_EQ(Run(run + " --format=bag --bag_compression=zip").exit_code, 1);
+}
+
+TEST_F(SimulateCommand, WhatGoesIntoNoBagIsSaidBeforeTheOldRecordingIsTouched) {
+  const std::string run = "--scenario=street_kitti --duration_s=0.2 --output=" + Out("a");
+  ASSERT_EQ(Run(run).exit_code, 0);
+  EXPECT_EQ(Run(run + " --format=bag --overwrite").exit_code, 1);
+  EXPECT_TRUE(fs::exists(folder_ / "a" / "velodyne" / "000000.bin"));
+}
+
 TEST_F(SimulateCommand, TheNumberOfThreadsDoesNotChangeAByte) {
   const std::string run = "--scenario=faults_os1_16x2 --duration_s=0.6 ";
   ASSERT_EQ(Run(run + "--threads=1 --output=" + Out("one")).exit_code, 0);

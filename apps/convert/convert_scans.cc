@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "apps/convert/convert_scans.h"
+
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/info/reading_progress.h"
+#include "core/io/conversion/pcd_folder_writer.h"
+#include "core/io/conversion/scan_bag_writer.h"
+#include "core/io/errors.h"
+#include "core/io/recording/open_clouds.h"
+#include "core/io/recording/open_recording.h"
+
+namespace trajlo {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The topics with points of all inputs, one for each LiDAR; empty texts for folders of scans.
+std::vector<std::string> LidarTopics(const std::vector<std::string>& inputs,
+                                     const std::vector<std::string>& wanted) {
+  std::vector<std::string> lidars;
+  for (const std::string& input : inputs) {
+    if (!HoldsClouds(input)) {
+      lidars.emplace_back();
+    } else if (!wanted.empty()) {
+      lidars.insert(lidars.end(), wanted.begin(), wanted.end());
+    } else {
+      const auto clouds = OpenClouds(input);
+      for (std::size_t i = 0; i < clouds->topics().size(); ++i) {
+        const Topic& topic = clouds->topics()[i];
+        if (clouds->IsCloud(i) && topic.messages > 0) lidars.push_back(topic.name);
+      }
+    }
+  }
+  return lidars;
+}
+
+/// Takes the scans of one kind of output.
+class Output {
+ public:
+  virtual ~Output() = default;
+  virtual void Write(const LidarScan& scan) = 0;
+  virtual void Close() = 0;
+};
+
+class BagOutput : public Output {
+ public:
+  BagOutput(const ConvertRequest& request, std::vector<std::string> topics)
+      : layout_(request.layout.value_or(CloudLayout::kOuster)),
+        topics_(std::move(topics)),
+        bag_(request.output, Options(request)) {
+    for (std::size_t i = 0; i < topics_.size(); ++i) {
+      // Folders have no topics, and those of captures are no names for ROS.
+      const bool is_name = !topics_[i].empty() && topics_[i].front() == '/';
+      if (!is_name) topics_[i] = TopicOf(layout_, i, topics_.size());
+    }
+  }
+
+  void Write(const LidarScan& scan) override {
+    // Stamped at the start and recorded at the end of the sweep, so that every reader that goes by
+    // evidence sees which is which.
+    const std::int64_t start_ns = SweepStartOf(scan);
+    const auto lidar = static_cast<std::size_t>(scan.lidar_id);
+    bag_.WriteScan(layout_, topics_.at(lidar), "lidar" + std::to_string(lidar),
+                   {start_ns, start_ns, SweepEndOf(scan)}, scan);
+  }
+  void Close() override { bag_.Close(); }
+
+ private:
+  static Ros1BagOptions Options(const ConvertRequest& request) {
+    Ros1BagOptions options;
+    options.compression = request.compression;
+    options.if_exists = request.overwrite ? IfExists::kReplace : IfExists::kFail;
+    return options;
+  }
+
+  CloudLayout layout_;
+  std::vector<std::string> topics_;
+  ScanBagWriter bag_;
+};
+
+class FolderOutput : public Output {
+ public:
+  FolderOutput(const ConvertRequest& request, std::size_t lidars) {
+    Prepare(request);
+    for (std::size_t i = 0; i < lidars; ++i) {
+      folders_.emplace_back(lidars == 1 ? request.output
+                                        : request.output / ("lidar" + std::to_string(i)));
+    }
+  }
+  void Write(const LidarScan& scan) override {
+    folders_.at(static_cast<std::size_t>(scan.lidar_id)).Write(scan);
+  }
+  void Close() override {
+    for (PcdFolderWriter& folder : folders_) folder.Close();
+  }
+
+ private:
+  /// Makes sure that nothing is lost, and that nothing of an older recording stays behind.
+  static void Prepare(const ConvertRequest& request) {
+    std::error_code error;
+    const fs::path& output = request.output;
+    if (!fs::exists(output, error) || fs::is_empty(output, error)) return;
+    if (!fs::is_directory(output, error) || !request.overwrite) {
+      throw OutputError(output, "is there already; choose another folder or add --overwrite");
+    }
+    fs::remove_all(output / "scans", error);
+    fs::remove(output / "timestamps.txt", error);
+    for (int id = 0; fs::remove_all(output / ("lidar" + std::to_string(id)), error) > 0; ++id) {
+    }
+  }
+
+  std::vector<PcdFolderWriter> folders_;
+};
+
+std::unique_ptr<Output> OpenOutput(const ConvertRequest& request,
+                                   const std::vector<std::string>& topics) {
+  if (request.WritesBag()) return std::make_unique<BagOutput>(request, topics);
+  return std::make_unique<FolderOutput>(request, topics.size());
+}
+
+}  // namespace
+
+ConvertedScans ConvertScans(const ConvertRequest& request, const std::atomic<bool>& stop) {
+  const std::vector<std::string> inputs = InputPaths(request.input);
+  RecordingOptions options = request.recording;
+  const std::vector<std::string> topics = LidarTopics(inputs, options.topics);
+  // All LiDARs of a bag, where trajlo_run would ask which. Several inputs choose their own.
+  if (inputs.size() == 1 && HoldsClouds(inputs.front())) options.topics = topics;
+  const std::unique_ptr<ScanSource> recording = OpenRecording(inputs, options);
+  if (!request.quiet) std::printf("%s\n", recording->description().c_str());
+  std::fflush(stdout);
+  std::unique_ptr<Output> output;
+  ConvertedScans converted;
+  converted.lidars = topics.size();
+  {
+    ReadingProgress progress(stderr, request.quiet);
+    LidarScan scan;
+    while (!stop && recording->Next(&scan)) {
+      if (output == nullptr) output = OpenOutput(request, topics);
+      output->Write(scan);
+      ++converted.scans;
+      converted.points += scan.points.size();
+      progress.Update(recording->report().scans_read, recording->size());
+    }
+  }
+  converted.report = recording->report();
+  if (output == nullptr) {
+    throw InputError(request.input, "no scan lies in what is to be converted",
+                     "Check --topics, --start_s and --duration_s with trajlo_info.");
+  }
+  output->Close();
+  return converted;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/messages/raw_message.h"
+#include "core/io/trajectory_reader.h"
+
+namespace trajlo {
+
+struct ExtractedPoses {
+  /// In the order of recording.
+  std::vector<StampedPose> poses;
+  /// Messages that hold no pose: cut, not finite, or a zero quaternion.
+  std::size_t unreadable = 0;
+  MessageReport report;
+};
+
+/// The poses that a bag (ROS 1 or 2, or a folder of bags that follow each other) has on a topic of
+/// PoseStamped, PoseWithCovarianceStamped, TransformStamped, PointStamped or Odometry. Throws
+/// InputError: no such topic (the message lists those there are), or no pose.
+ExtractedPoses ExtractPoses(const std::filesystem::path& recording, const std::string& topic);
+
+}  // namespace trajlo

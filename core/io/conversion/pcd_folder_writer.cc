@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/conversion/pcd_folder_writer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "core/io/atomic_file.h"
+#include "core/io/errors.h"
+#include "core/io/stamp_text.h"
+
+namespace trajlo {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Header(std::size_t count, bool has_times) {
+  const std::string n = std::to_string(count);
+  return std::string("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n") +
+         (has_times ? "FIELDS x y z intensity t\nSIZE 4 4 4 4 4\nTYPE F F F F U\nCOUNT 1 1 1 1 1\n"
+                    : "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n") +
+         "WIDTH " + n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
+}
+
+std::uint32_t OffsetNs(const fs::path& path, std::int64_t offset_ns) {
+  if (offset_ns < 0 || offset_ns > std::numeric_limits<std::uint32_t>::max()) {
+    throw OutputError(path, "a point " + std::to_string(offset_ns) +
+                                " ns after the start of its sweep does not fit into the file");
+  }
+  return static_cast<std::uint32_t>(offset_ns);
+}
+
+}  // namespace
+
+std::int64_t SweepStartOf(const LidarScan& scan) {
+  if (!scan.has_point_times || scan.points.empty()) return scan.stamp_ns;
+  const auto [first, last] =
+      std::minmax_element(scan.points.begin(), scan.points.end(),
+                          [](const LidarPoint& a, const LidarPoint& b) { return a.t_ns < b.t_ns; });
+  const bool stamp_is_start = scan.stamp_ns <= first->t_ns &&
+                              first->t_ns - scan.stamp_ns <= (last->t_ns - first->t_ns) / 20;
+  return stamp_is_start ? scan.stamp_ns : first->t_ns;
+}
+
+std::int64_t SweepEndOf(const LidarScan& scan) {
+  std::int64_t end_ns = scan.stamp_ns;
+  for (const LidarPoint& point : scan.points) end_ns = std::max(end_ns, point.t_ns);
+  return end_ns;
+}
+
+PcdFolderWriter::PcdFolderWriter(fs::path folder) : folder_(std::move(folder)) {
+  std::error_code error;
+  fs::create_directories(folder_ / "scans", error);
+  if (error) throw OutputError(folder_, "cannot make the folder: " + error.message());
+}
+
+void PcdFolderWriter::Write(const LidarScan& scan) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "%06zu.pcd", stamps_ns_.size());
+  const fs::path path = folder_ / "scans" / name;
+  const std::int64_t start_ns = SweepStartOf(scan);
+  stamps_ns_.push_back(start_ns);
+  std::string bytes = Header(scan.points.size(), scan.has_point_times);
+  const std::size_t begin = bytes.size();
+  const std::size_t step = scan.has_point_times ? 20 : 16;
+  bytes.resize(begin + step * scan.points.size());
+  char* at = bytes.data() + begin;
+  for (const LidarPoint& point : scan.points) {
+    std::memcpy(at, point.xyz_m.data(), 12);
+    std::memcpy(at + 12, &point.intensity, 4);
+    if (scan.has_point_times) {
+      const std::uint32_t offset_ns = OffsetNs(path, point.t_ns - start_ns);
+      std::memcpy(at + 16, &offset_ns, 4);
+    }
+    at += step;
+  }
+  OutputFile file(path, IfExists::kFail);
+  file.Write(bytes);
+  file.Close();
+}
+
+void PcdFolderWriter::Close() {
+  std::string text;
+  for (const std::int64_t t_ns : stamps_ns_) text += FormatSeconds(t_ns) + "\n";
+  WriteTextFile(folder_ / "timestamps.txt", text);
+}
+
+}  // namespace trajlo

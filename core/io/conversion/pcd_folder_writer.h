@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/output_file.h"
+#include "core/sensing/lidar_scan.h"
+
+namespace trajlo {
+
+/// Writes the scans of one LiDAR as scans/000000.pcd, ... and timestamps.txt with a stamp a line.
+/// The files are binary with fields x y z intensity (float32) and, if points have times, t (uint32,
+/// ns since the scan's stamp, which is moved to the start of the sweep): exact, where seconds as
+/// float32 are good to 4 ns only. Members throw OutputError.
+class PcdFolderWriter {
+ public:
+  explicit PcdFolderWriter(std::filesystem::path folder);
+
+  void Write(const LidarScan& scan);
+  /// Writes the stamps.
+  void Close();
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::int64_t> stamps_ns_;
+};
+
+/// What the times of a scan's points count from when it is written: the stamp where that marks the
+/// start of the sweep, else the first point.
+std::int64_t SweepStartOf(const LidarScan& scan);
+/// The time of the last point, at least the scan's stamp.
+std::int64_t SweepEndOf(const LidarScan& scan);
+
+}  // namespace trajlo

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// The command as a user calls it.
+#include <gmock/gmock.h>
+
+#include "core/io/recording/open_recording.h"
+#include "core/io/trajectory_reader.h"
+#include "tests/support/process.h"
+#include "tests/support/room_recording.h"
+#include "tests/support/temp_folder.h"
+
+namespace trajlo::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+Outcome Convert(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), TRAJLO_CONVERT);
+  const Process process(arguments);
+  const int exit_code = process.Wait();
+  return {exit_code, process.Out(), process.Err()};
+}
+
+std::vector<LidarScan> ReadAll(const std::string& path) {
+  const auto recording = OpenRecording(InputPaths(path), {});
+  std::vector<LidarScan> scans;
+  LidarScan scan;
+  while (recording->Next(&scan)) scans.push_back(scan);
+  return scans;
+}
+
+class TrajloConvert : public ::testing::Test {
+ protected:
+  TrajloConvert() { RoomRecording().Write(folder_ / "room"); }
+  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
+
+  TempFolder folder_;
+};
+
+TEST_F(TrajloConvert, HelpTeachesByExample) {
+  const Outcome help = Convert({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, AllOf(HasSubstr("trajlo_convert recording.bag part.bag --start_s=60"),
+                              Not(HasSubstr("minloglevel"))));
+}
+
+TEST_F(TrajloConvert, WrongUsageExitsWithOne) {
+  EXPECT_EQ(Convert({Path("room")}).exit_code, 1);
+  EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--layout=hexagon"}).exit_code, 1);
+  EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--compression=zip"}).exit_code, 1);
+  EXPECT_EQ(Convert({Path("room"), Path("a"), "--layout=ouster"}).exit_code, 1);
+  EXPECT_EQ(Convert({Path("room"), Path("a.mcap")}).exit_code, 1);
+  EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--start_s=-1"}).exit_code, 1);
+  EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--set=input.unit=s"}).exit_code, 1);
+}
+
+TEST_F(TrajloConvert, AFolderBecomesABagAndAFolderAgainWithTheSamePoints) {
+  const Outcome to_bag = Convert({Path("room"), Path("a.bag"), "--compression=lz4"});
+  ASSERT_EQ(to_bag.exit_code, 0) << to_bag.err;
+  EXPECT_THAT(to_bag.out, HasSubstr("12 scans of 1 LiDAR"));
+  ASSERT_EQ(Convert({Path("a.bag"), Path("again")}).exit_code, 0);
+  const std::vector<LidarScan> before = ReadAll(Path("room")), after = ReadAll(Path("again"));
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    ASSERT_EQ(before[i].points.size(), after[i].points.size());
+    EXPECT_EQ(before[i].stamp_ns, after[i].stamp_ns);
+    for (std::size_t k = 0; k < before[i].points.size(); ++k) {
+      ASSERT_EQ(before[i].points[k].xyz_m, after[i].points[k].xyz_m);
+      ASSERT_EQ(before[i].points[k].t_ns, after[i].points[k].t_ns);
+    }
+  }
+}
+
+TEST_F(TrajloConvert, SeveralLidarsGetFoldersOfTheirOwn) {
+  RoomRecording().Write(folder_ / "rig" / "lidar0");
+  RoomRecording().Write(folder_ / "rig" / "lidar1");
+  ASSERT_EQ(Convert({Path("rig"), Path("rig.bag")}).exit_code, 0);
+  // All LiDARs of a bag, without asking which.
+  ASSERT_EQ(Convert({Path("rig.bag"), Path("out")}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "lidar0" / "scans" / "000011.pcd"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "lidar1" / "timestamps.txt"));
+  ASSERT_EQ(Convert({Path("rig.bag"), Path("one"), "--topics=/os1_cloud_node2/points"}).exit_code,
+            0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "one" / "scans" / "000011.pcd"));
+}
+
+TEST_F(TrajloConvert, AnExcerptHasTheScansOfItsTime) {
+  ASSERT_EQ(Convert({Path("room"), Path("part"), "--start_s=0.35", "--duration_s=0.4"}).exit_code,
+            0);
+  const std::vector<LidarScan> scans = ReadAll(Path("part"));
+  ASSERT_EQ(scans.size(), 4u);
+  EXPECT_EQ(scans[0].stamp_ns, 1'000'400'000'000);
+  const Outcome nothing = Convert({Path("room"), Path("none"), "--start_s=100"});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+}
+
+TEST_F(TrajloConvert, AnEarlierResultIsKeptUnlessAskedOtherwise) {
+  WriteFile(folder_ / "a.bag", "precious");
+  EXPECT_EQ(Convert({Path("room"), Path("a.bag")}).exit_code, 5);
+  EXPECT_EQ(ReadFile(folder_ / "a.bag"), "precious");
+  EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--overwrite"}).exit_code, 0);
+  ASSERT_EQ(Convert({Path("room"), Path("out")}).exit_code, 0);
+  EXPECT_EQ(Convert({Path("room"), Path("out")}).exit_code, 5);
+  EXPECT_EQ(Convert({Path("room"), Path("out"), "--overwrite", "--duration_s=0.5"}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "scans" / "000011.pcd"));
+  EXPECT_EQ(Convert({Path("room"), Path("room"), "--overwrite"}).exit_code, 1);
+  EXPECT_EQ(ReadAll(Path("room")).size(), 12u);
+}
+
+TEST_F(TrajloConvert, ADamagedRecordingIsConvertedAsFarAsItGoes) {
+  WriteFile(RoomRecording::File(folder_ / "room", 3), "no scan");
+  const Outcome outcome = Convert({Path("room"), Path("a.bag")});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("000003.pcd"));
+  EXPECT_EQ(ReadAll(Path("a.bag")).size(), 11u);
+}
+
+}  // namespace
+}  // namespace trajlo::testing

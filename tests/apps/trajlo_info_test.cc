@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The command as a user calls it.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/conversion/scan_bag_writer.h"
+#include "tests/support/process.h"
+#include "tests/support/room_recording.h"
+#include "tests/support/temp_folder.h"
+
+namespace trajlo::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+Outcome Info(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), TRAJLO_INFO);
+  const Process process(arguments);
+  const int exit_code = process.Wait();
+  return {exit_code, process.Out(), process.Err()};
+}
+
+/// Two LiDARs whose stamps mark the end of the sweep, the second 37 ms behind the first.
+void WriteRigBag(const std::filesystem::path& path) {
+  ScanBagWriter bag(path, {});
+  for (int i = 0; i < 10; ++i) {
+    for (const std::int64_t phase_ns : {std::int64_t{0}, std::int64_t{37'000'000}}) {
+      LidarScan scan;
+      const std::int64_t start_ns = 1'700'000'000'000'000'000 + i * 100'000'000 + phase_ns;
+      for (int k = 0; k < 1000; ++k) {
+        scan.points.push_back({{5, 1, 0}, 0, start_ns + k * 100'000});
+      }
+      const std::int64_t end_ns = start_ns + 100'000'000;
+      const std::string topic =
+          phase_ns == 0 ? "/os1_cloud_node1/points" : "/os1_cloud_node2/points";
+      bag.WriteScan(CloudLayout::kOuster, topic, "os_sensor",
+                    {end_ns, start_ns, end_ns + 2'000'000}, scan);
+    }
+  }
+  bag.WritePose("/leica/pose/relative", 1'700'000'001'000'000'000, {});
+  bag.Close();
+}
+
+TEST(TrajloInfo, HelpTeachesByExampleAndWrongUsageExitsWithOne) {
+  const Outcome help = Info({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out,
+              AllOf(HasSubstr("trajlo_info recording.bag --quick"), Not(HasSubstr("minloglevel"))));
+  EXPECT_EQ(Info({}).exit_code, 1);
+  EXPECT_EQ(Info({"--nonsense"}).exit_code, 1);
+}
+
+TEST(TrajloInfo, TellsTopicsTimesAndTheCommandToUse) {
+  const TempFolder folder;
+  WriteRigBag(folder / "rig.bag");
+  const Outcome outcome = Info({(folder / "rig.bag").string()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("/leica/pose/relative"), HasSubstr("geometry_msgs/PoseStamped"),
+                    HasSubstr("t uint32 @20"), HasSubstr("stamps mark its end"),
+                    HasSubstr("messages were recorded 0.002 s after their stamp"),
+                    HasSubstr("begin 37 ms after those of lidar 0"),
+                    HasSubstr("--config=config/datasets/ntu_viral.yaml "
+                              "'--set=input.topics=[\"/os1_cloud_node1/points\", "
+                              "\"/os1_cloud_node2/points\"]'")));
+}
+
+TEST(TrajloInfo, JsonHasTheSameForPrograms) {
+  const TempFolder folder;
+  WriteRigBag(folder / "rig.bag");
+  const Outcome outcome = Info({(folder / "rig.bag").string(), "--json"});
+  ASSERT_EQ(outcome.exit_code, 0);
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  const nlohmann::json& recording = json["recordings"][0];
+  EXPECT_EQ(recording["topics"].size(), 3u);
+  const nlohmann::json& lidar = recording["lidars"][1];
+  EXPECT_EQ(lidar["times"]["unit"], "ns");
+  EXPECT_EQ(lidar["times"]["origin"], "start");
+  EXPECT_EQ(lidar["times"]["stamp_at"], "end");
+  EXPECT_EQ(lidar["stamps"]["count"], 10);
+  EXPECT_EQ(lidar["stamps"]["first_ns"], 1'700'000'000'137'000'000);
+  EXPECT_NEAR(lidar["phase"]["after_first_lidar_s"].get<double>(), 0.037, 1e-9);
+  EXPECT_EQ(lidar["points"]["total"], 10'000);
+}
+
+TEST(TrajloInfo, ADamagedRecordingIsShownAndExitsWithThree) {
+  const TempFolder folder;
+  WriteRigBag(folder / "whole.bag");
+  const std::string bytes = ReadFile(folder / "whole.bag");
+  WriteFile(folder / "cut.bag", bytes.substr(0, bytes.size() * 9 / 10));
+  const Outcome outcome = Info({(folder / "cut.bag").string()});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("damaged"), HasSubstr("stamps mark its end")));
+}
+
+TEST(TrajloInfo, WhatIsUnreadableExitsWithTwoAfterShowingTheRest) {
+  const TempFolder folder;
+  RoomRecording().Write(folder / "room");
+  const Outcome outcome = Info({(folder / "nothing").string(), (folder / "room").string()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("nothing"));
+  EXPECT_THAT(outcome.out, HasSubstr("lidar 0"));
+}
+
+}  // namespace
+}  // namespace trajlo::testing

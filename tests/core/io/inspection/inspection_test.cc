@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/io/inspection/findings.h"
+#include "core/io/inspection/point_summary.h"
+#include "core/io/inspection/run_advice.h"
+#include "core/io/inspection/stamp_summary.h"
+#include "core/io/inspection/sweep_times.h"
+
+namespace trajlo {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr std::int64_t kMs = 1'000'000;
+
+std::vector<std::int64_t> Every100Ms(int count) {
+  std::vector<std::int64_t> t_ns;
+  for (int i = 0; i < count; ++i) t_ns.push_back(1'000'000 * kMs + i * 100 * kMs);
+  return t_ns;
+}
+
+TEST(StampSummary, RegularStampsHaveNothingToReport) {
+  const StampSummary stamps = SummariseStamps(Every100Ms(20), {});
+  EXPECT_EQ(stamps.count, 20u);
+  EXPECT_DOUBLE_EQ(stamps.period_s, 0.1);
+  EXPECT_LT(stamps.jitter_s, 1e-9);
+  EXPECT_THAT(stamps.gaps, IsEmpty());
+  EXPECT_EQ(stamps.duplicates + stamps.steps_back + stamps.missing, 0u);
+  EXPECT_FALSE(stamps.recorded_after_s);
+}
+
+TEST(StampSummary, GapsSayWhereHowLongAndHowManyScansAreMissing) {
+  std::vector<std::int64_t> t_ns = Every100Ms(20);
+  t_ns.erase(t_ns.begin() + 5, t_ns.begin() + 8);
+  const StampSummary stamps = SummariseStamps(t_ns, {});
+  ASSERT_EQ(stamps.gaps.size(), 1u);
+  EXPECT_EQ(stamps.gaps[0].after_ns, 1'000'400 * kMs);
+  EXPECT_EQ(stamps.gaps[0].length_ns, 400 * kMs);
+  EXPECT_EQ(stamps.missing, 3u);
+}
+
+TEST(StampSummary, RepeatedStampsAndStepsBackAreToldApart) {
+  std::vector<std::int64_t> t_ns = Every100Ms(20);
+  t_ns[7] = t_ns[6];
+  t_ns[12] = t_ns[11] - 20 * kMs;
+  const StampSummary stamps = SummariseStamps(t_ns, {});
+  EXPECT_EQ(stamps.duplicates, 1u);
+  EXPECT_EQ(stamps.first_duplicate_ns, t_ns[7]);
+  EXPECT_EQ(stamps.steps_back, 1u);
+  EXPECT_EQ(stamps.first_step_back_ns, t_ns[12]);
+  EXPECT_NEAR(stamps.largest_step_back_s, 0.02, 1e-12);
+}
+
+TEST(StampSummary, JitterIsTheRootMeanSquareOfOrdinarySteps) {
+  std::vector<std::int64_t> t_ns = Every100Ms(21);
+  // Steps of 100, 101, 99, 100, ...: two of five are off by 1 ms.
+  for (std::size_t i = 2; i < t_ns.size(); i += 5) t_ns[i] += kMs;
+  const StampSummary stamps = SummariseStamps(t_ns, {});
+  EXPECT_NEAR(stamps.jitter_s, 1e-3 * std::sqrt(0.4), 1e-9);
+  EXPECT_NEAR(stamps.largest_deviation_s, 1e-3, 1e-9);
+}
+
+TEST(StampSummary, TheDelayOfTheRecorderIsGivenWithItsExtremes) {
+  const std::vector<std::int64_t> t_ns = Every100Ms(3);
+  const StampSummary stamps =
+      SummariseStamps(t_ns, {t_ns[0] + 5 * kMs, t_ns[1] + 1 * kMs, t_ns[2] + 9 * kMs});
+  ASSERT_TRUE(stamps.recorded_after_s);
+  EXPECT_NEAR(stamps.recorded_after_s->least, 0.001, 1e-12);
+  EXPECT_NEAR(stamps.recorded_after_s->median, 0.005, 1e-12);
+  EXPECT_NEAR(stamps.recorded_after_s->most, 0.009, 1e-12);
+}
+
+LidarScan ScanOf(const std::vector<Eigen::Vector3f>& points) {
+  LidarScan scan;
+  for (const Eigen::Vector3f& point : points) scan.points.push_back({point, 0.0F, 0});
+  return scan;
+}
+
+TEST(PointCounter, CountsWhatIsNoReturnAndMeasuresTheRest) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  std::vector<Eigen::Vector3f> points = {{kNan, 0, 0}, {0, 0, 0}};
+  for (int i = 1; i <= 200; ++i) points.emplace_back(0.0F, 0.1F * static_cast<float>(i), 0.0F);
+  PointCounter counter;
+  counter.Add({}, ScanOf(points));
+  counter.Add({}, ScanOf({}));
+  const PointSummary summary = counter.Summarise();
+  EXPECT_EQ(summary.total, 202u);
+  EXPECT_EQ(summary.not_finite, 1u);
+  EXPECT_EQ(summary.at_origin, 1u);
+  EXPECT_EQ(summary.empty_messages, 1u);
+  EXPECT_EQ(summary.fewest, 0u);
+  EXPECT_EQ(summary.most, 202u);
+  EXPECT_NEAR(summary.range_min_m, 0.1, 1e-6);
+  EXPECT_NEAR(summary.range_median_m, 10.0, 0.02);
+  EXPECT_NEAR(summary.range_99_m, 19.8, 0.02);
+  EXPECT_NEAR(summary.range_max_m, 20.0, 1e-5);
+  EXPECT_FALSE(summary.rings);
+}
+
+TEST(PointCounter, RangesBeyondTheHistogramDoNotBreakIt) {
+  PointCounter counter;
+  counter.Add({}, ScanOf({{1e30F, 0, 0}, {1e-3F, 0, 0}}));
+  const PointSummary summary = counter.Summarise();
+  EXPECT_NEAR(summary.range_min_m, 1e-3, 1e-9);
+  EXPECT_GT(summary.range_max_m, 9e29);
+  EXPECT_TRUE(std::isfinite(summary.range_99_m));
+}
+
+/// A sweep of 90 ms that begins `phase_ns` after an even 100 ms.
+LidarScan Sweep(int index, std::int64_t phase_ns) {
+  LidarScan scan;
+  scan.stamp_ns = 1'000'000 * kMs + index * 100 * kMs + phase_ns;
+  for (int i = 0; i < 10; ++i) {
+    scan.points.push_back({{1, 0, 0}, 0.0F, scan.stamp_ns + i * 10 * kMs});
+  }
+  return scan;
+}
+
+TEST(SweepTimes, SaysHowSweepsLieToTheirStampsAndToEachOther) {
+  SweepTimes sweeps;
+  for (int i = 0; i < 5; ++i) sweeps.Add(Sweep(i, 0), 0);
+  const auto summary = sweeps.Summarise(0.1);
+  ASSERT_TRUE(summary);
+  EXPECT_NEAR(summary->span_s, 0.09, 1e-12);
+  EXPECT_NEAR(summary->pause_s, 0.01, 1e-12);
+  EXPECT_NEAR(summary->stamp_after_first_s, 0.0, 1e-12);
+  EXPECT_NEAR(summary->stamp_after_last_s, -0.09, 1e-12);
+}
+
+TEST(SweepTimes, ScansWithoutTimesHaveNoSweeps) {
+  SweepTimes sweeps;
+  LidarScan scan = Sweep(0, 0);
+  scan.has_point_times = false;
+  sweeps.Add(scan, 0);
+  EXPECT_FALSE(sweeps.Summarise(0.1));
+}
+
+TEST(PhaseOf, IsCountedFromTheSweepBefore) {
+  SweepTimes first, second, early;
+  for (int i = 0; i < 9; ++i) {
+    first.Add(Sweep(i, 0), 0);
+    second.Add(Sweep(i, 37 * kMs), 0);
+    // About in step: it must not flip between the ends of the period.
+    early.Add(Sweep(i, i % 2 == 0 ? -kMs : kMs), 0);
+  }
+  const auto phase = PhaseOf(second.begins_ns(), first.begins_ns(), 0.1);
+  ASSERT_TRUE(phase);
+  EXPECT_NEAR(phase->after_first_lidar_s, 0.037, 1e-9);
+  EXPECT_NEAR(phase->spread_s, 0.0, 1e-9);
+  const auto about_zero = PhaseOf(early.begins_ns(), first.begins_ns(), 0.1);
+  ASSERT_TRUE(about_zero);
+  EXPECT_NEAR(about_zero->spread_s, 0.002, 1e-9);
+}
+
+CloudInspection Cloud(const std::string& topic, std::vector<FieldDescription> fields) {
+  CloudInspection cloud;
+  cloud.topic = topic;
+  cloud.type = "sensor_msgs/PointCloud2";
+  cloud.fields = std::move(fields);
+  cloud.messages_read = 10;
+  cloud.points.total = 100'000;
+  cloud.convention.field = "t";
+  cloud.convention.stamp_at = StampAt::kEnd;
+  return cloud;
+}
+
+RecordingInspection Recording(std::vector<CloudInspection> clouds) {
+  RecordingInspection recording;
+  recording.path = "my recording.bag";
+  recording.clouds = std::move(clouds);
+  return recording;
+}
+
+TEST(FindingsOf, AGoodRecordingHasNone) { EXPECT_THAT(FindingsOf(Cloud("/a", {})), IsEmpty()); }
+
+TEST(FindingsOf, NamesWhatGoesWrong) {
+  CloudInspection cloud = Cloud("/a", {});
+  cloud.time_problem = "ambiguous point times";
+  cloud.sweeps = SweepSummary{0.1, -0.05, 0.0, -0.1, 3};
+  cloud.stamps.gaps = {{1'000'000'000, 400'000'000}, {2'000'000'000, 300'000'000}};
+  cloud.stamps.missing = 5;
+  cloud.stamps.duplicates = 2;
+  cloud.stamps.first_duplicate_ns = 3'500'000'000;
+  cloud.points.not_finite = 99'999;
+  const std::vector<std::string> findings = FindingsOf(cloud);
+  EXPECT_THAT(findings, Contains(HasSubstr("will refuse: ambiguous point times")));
+  EXPECT_THAT(findings, Contains(HasSubstr("sweeps overlap by 0.05 s")));
+  EXPECT_THAT(findings, Contains(HasSubstr("3 points have impossible times")));
+  EXPECT_THAT(findings, Contains(HasSubstr("2 gaps, about 5 scans are missing; the longest, 0.4 "
+                                           "s, is after 1.000000000 s")));
+  EXPECT_THAT(findings, Contains(HasSubstr("2 stamps repeat the one before, the first at 3.5")));
+  EXPECT_THAT(findings, Contains(HasSubstr("only 0 returns a message")));
+}
+
+TEST(AdviseRun, TellsTheSensorByItsFields) {
+  const auto config = [](std::vector<FieldDescription> fields) {
+    return AdviseRun(Recording({Cloud("/points", std::move(fields))})).config;
+  };
+  EXPECT_EQ(config({{"t", "uint32", 20}, {"reflectivity", "uint16", 24}}),
+            "config/datasets/ouster.yaml");
+  EXPECT_EQ(config({{"ring", "uint16", 16}, {"time", "float32", 18}}),
+            "config/datasets/velodyne.yaml");
+  EXPECT_EQ(config({{"timestamp", "float64", 16}}), "config/datasets/hesai.yaml");
+  EXPECT_EQ(config({{"offset_time", "uint32", 0}}), "config/datasets/livox.yaml");
+  EXPECT_EQ(config({{"x", "float32", 0}}), "");
+}
+
+TEST(AdviseRun, QuotesForAShellAndSaysWhatItDoesNotKnow) {
+  const RunAdvice one = AdviseRun(Recording({Cloud("/points", {})}));
+  EXPECT_EQ(one.command, "trajlo_run '--input=my recording.bag' --output=result");
+  EXPECT_THAT(one.remarks, Contains(HasSubstr("sensor.T_body_lidar")));
+  const RunAdvice two = AdviseRun(Recording({Cloud("/a", {}), Cloud("/b", {})}));
+  EXPECT_THAT(two.command, HasSubstr(R"('--set=input.topics=["/a", "/b"]')"));
+  EXPECT_THAT(two.remarks, Contains(HasSubstr("where the LiDARs sit is not known")));
+  EXPECT_THAT(two.remarks, Contains(HasSubstr("--set=input.topics=/a")));
+}
+
+TEST(AdviseRun, TakesTheExtrinsicsThatLieInTheRecordingsFolder) {
+  RecordingInspection recording = Recording({Cloud("/a", {}), Cloud("/b", {})});
+  recording.path = "simulated";
+  recording.rig_config = "simulated/rig.yaml";
+  const RunAdvice advice = AdviseRun(recording);
+  EXPECT_THAT(advice.command, HasSubstr(" --config=simulated/rig.yaml "));
+  EXPECT_THAT(advice.remarks, IsEmpty());
+}
+
+TEST(AdviseRun, KnowsDatasetsByTheirTopicsAndContradictsThemByEvidence) {
+  std::vector<CloudInspection> clouds = {Cloud("/os1_cloud_node2/points", {}),
+                                         Cloud("/os1_cloud_node1/points", {})};
+  const RunAdvice advice = AdviseRun(Recording(clouds));
+  EXPECT_EQ(advice.config, "config/datasets/ntu_viral.yaml");
+  // The order of the config's extrinsics, not that of the bag.
+  EXPECT_THAT(advice.command,
+              HasSubstr(R"(["/os1_cloud_node1/points", "/os1_cloud_node2/points"])"));
+  EXPECT_THAT(advice.command, Not(HasSubstr("stamp_at")));
+  EXPECT_THAT(advice.remarks, IsEmpty());
+  clouds[0].convention.stamp_at = StampAt::kStart;
+  const RunAdvice contradicted = AdviseRun(Recording(clouds));
+  EXPECT_THAT(contradicted.command, HasSubstr("input.stamp_at=start"));
+  EXPECT_THAT(contradicted.remarks, Contains(HasSubstr("check input.stamp_at")));
+}
+
+TEST(AdviseRun, WithoutCloudsThereIsNoCommand) { EXPECT_EQ(AdviseRun(Recording({})).command, ""); }
+
+}  // namespace
+}  // namespace trajlo
