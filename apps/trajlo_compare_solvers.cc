@@ -3,11 +3,11 @@
 #include <gflags/gflags.h>
 
 #include <cstdio>
-#include <cstring>
 #include <sstream>
 #include <string>
 
 #include "apps/compare/compare_job.h"
+#include "apps/wants_help.h"
 #include "core/io/recording/open_recording.h"
 #include "core/report/versions.h"
 
@@ -15,7 +15,8 @@ DEFINE_string(input, "", "the recording, as for trajlo_run");
 DEFINE_string(output, "", "the folder to write");
 DEFINE_string(config, "", "YAML files, separated by commas; later ones override earlier ones");
 DEFINE_string(set, "", "options for all variants: key=value, separated by commas");
-DEFINE_string(variants, "", "YAML file with the variants; empty takes config/comparisons/solvers.yaml");
+DEFINE_string(variants, "",
+              "YAML file with the variants; empty takes config/comparisons/solvers.yaml");
 DEFINE_string(only, "",
               "names of the variants to take, separated by commas; the first is the yardstick");
 DEFINE_string(mode, "both", "lockstep, free or both");
@@ -113,18 +114,8 @@ trajlo::CompareRequest RequestFromFlags() {
   return request;
 }
 
-bool WantsHelp(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    for (const char* flag : {"--help", "-help", "-h"}) {
-      if (std::strcmp(argv[i], flag) == 0) return true;
-    }
-  }
-  return false;
-}
-
 ExitCode Main(int argc, char** argv) {
-  // Ahead of gflags, whose own help lists the flags of every library that is linked.
-  if (WantsHelp(argc, argv)) {
+  if (trajlo::WantsHelp(argc, argv)) {
     std::fputs(kHelp, stdout);
     return ExitCode::kOk;
   }

@@ -4,7 +4,6 @@
 
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <set>
 #include <string>
 
@@ -12,6 +11,7 @@
 #include "apps/evaluate/flag_values.h"
 #include "apps/evaluate/labels.h"
 #include "apps/evaluate/usage_error.h"
+#include "apps/wants_help.h"
 #include "core/evaluation/format_text.h"
 #include "core/report/versions.h"
 
@@ -204,18 +204,8 @@ EvaluateRequest RequestFromFlags(std::vector<std::string> arguments) {
   return request;
 }
 
-bool WantsHelp(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    for (const char* flag : {"--help", "-help", "-h"}) {
-      if (std::strcmp(argv[i], flag) == 0) return true;
-    }
-  }
-  return false;
-}
-
 ExitCode Main(int argc, char** argv) {
-  // Ahead of gflags, whose own help lists the flags of every library that is linked.
-  if (WantsHelp(argc, argv)) {
+  if (trajlo::WantsHelp(argc, argv)) {
     std::fputs(kHelp, stdout);
     return ExitCode::kOk;
   }

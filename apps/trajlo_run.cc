@@ -3,12 +3,12 @@
 #include <gflags/gflags.h>
 
 #include <cstdio>
-#include <cstring>
 #include <sstream>
 #include <string>
 
 #include "apps/run/interrupt.h"
 #include "apps/run/run_job.h"
+#include "apps/wants_help.h"
 #include "core/config/config.h"
 #include "core/io/recording/open_recording.h"
 #include "core/report/versions.h"
@@ -124,18 +124,8 @@ trajlo::RunRequest RequestFromFlags() {
   return request;
 }
 
-bool WantsHelp(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    for (const char* flag : {"--help", "-help", "-h"}) {
-      if (std::strcmp(argv[i], flag) == 0) return true;
-    }
-  }
-  return false;
-}
-
 ExitCode Main(int argc, char** argv) {
-  // Ahead of gflags, whose own help lists the flags of every library that is linked.
-  if (WantsHelp(argc, argv)) {
+  if (trajlo::WantsHelp(argc, argv)) {
     std::fputs(kHelp, stdout);
     return ExitCode::kOk;
   }
