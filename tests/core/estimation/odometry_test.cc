@@ -242,6 +242,9 @@ TEST(Odometry, ScansOfNaNsEmptyScansAndRepeatedScansDoNotStopIt) {
 
 TEST(Odometry, SaysThatItIsLostWhenTheWorldDisappears) {
   SyntheticWorld world;
+  // A search among points without order is slow: few of them.
+  world.beams = 16;
+  world.columns = 60;
   const RunResult run = RunOn(world, RoomOptions(), 40, [&](int i, LidarScan* scan) {
     if (i < 10) return;
     testing::Random random(static_cast<unsigned>(i));
@@ -251,6 +254,7 @@ TEST(Odometry, SaysThatItIsLostWhenTheWorldDisappears) {
   });
   ASSERT_TRUE(run.odometry->lost_at_ns());
   EXPECT_GE(*run.odometry->lost_at_ns(), world.start_ns + 900'000'000);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 0.85), 0.05);
   ExpectFinite(run.odometry->trajectory());
 }
 
@@ -304,7 +308,7 @@ TEST(Odometry, TwoLidarsWithExtrinsicsMakeOneTrajectory) {
   EXPECT_LT(LargestError(world, odometry.trajectory(), 1.95), 0.02);
 }
 
-TEST(Odometry, KeepsTheMapAndItsMemoryBounded) {
+TEST(Odometry, KeepsTheMapBounded) {
   SyntheticWorld world;
   OdometryOptions options = RoomOptions();
   const RunResult ten = RunOn(world, options, 10);
