@@ -2,14 +2,16 @@
 // The same windows, and the same recording, by many solvers. See --help.
 #include <gflags/gflags.h>
 
-#include <cstdio>
-#include <sstream>
 #include <string>
+#include <vector>
 
+#include "apps/command.h"
 #include "apps/compare/compare_job.h"
-#include "apps/wants_help.h"
+#include "apps/load_config.h"
+#include "apps/require_extrinsics.h"
+#include "apps/split_at_commas.h"
+#include "apps/usage_error.h"
 #include "core/io/recording/open_recording.h"
-#include "core/report/versions.h"
 
 DEFINE_string(input, "", "the recording, as for trajlo_run");
 DEFINE_string(output, "", "the folder to write");
@@ -29,8 +31,8 @@ DEFINE_bool(quiet, false, "print warnings and errors only");
 
 namespace {
 
-using trajlo::ConfigError;
 using trajlo::ExitCode;
+using trajlo::UsageError;
 
 constexpr char kHelp[] = R"(The same windows, and the same recording, by many solvers.
 
@@ -58,15 +60,6 @@ constexpr char kHelp[] = R"(The same windows, and the same recording, by many so
 Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 5 output not writable.
 )";
 
-std::vector<std::string> SplitAtCommas(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
-    if (!part.empty()) parts.push_back(part);
-  }
-  return parts;
-}
-
 /// Those that `only` names, in its order; all if it is empty.
 std::vector<trajlo::SolverVariant> Choose(const std::vector<trajlo::SolverVariant>& variants,
                                           const std::vector<std::string>& only) {
@@ -79,7 +72,7 @@ std::vector<trajlo::SolverVariant> Choose(const std::vector<trajlo::SolverVarian
       names += " " + variant.name;
     }
     if (chosen.empty() || chosen.back().name != name) {
-      throw ConfigError("--only: no variant '" + name + "'; there are:" + names);
+      throw UsageError("--only: no variant '" + name + "'; there are:" + names);
     }
   }
   return chosen;
@@ -88,21 +81,19 @@ std::vector<trajlo::SolverVariant> Choose(const std::vector<trajlo::SolverVarian
 trajlo::CompareRequest RequestFromFlags() {
   trajlo::CompareRequest request;
   request.inputs = trajlo::InputPaths(FLAGS_input);
-  if (request.inputs.empty()) throw ConfigError("--input is missing");
-  if (FLAGS_output.empty()) throw ConfigError("--output is missing");
-  for (const std::string& file : SplitAtCommas(FLAGS_config)) {
-    trajlo::LoadConfigFile(file, &request.config);
-  }
-  trajlo::ApplyOverrides(FLAGS_set, &request.config);
+  if (request.inputs.empty()) throw UsageError("--input is missing");
+  if (FLAGS_output.empty()) throw UsageError("--output is missing");
+  request.config = trajlo::LoadConfig(FLAGS_config, FLAGS_set);
   trajlo::ApplyOverrides("threads=" + std::to_string(FLAGS_threads), &request.config, "--threads");
   trajlo::CheckConfig(request.config);
+  trajlo::RequireExtrinsics(request.inputs, request.config);
   const std::string variants = FLAGS_variants.empty() ? TRAJLO_SOLVERS_YAML : FLAGS_variants;
   request.variants =
-      Choose(trajlo::LoadVariants(variants, request.config), SplitAtCommas(FLAGS_only));
+      Choose(trajlo::LoadVariants(variants, request.config), trajlo::SplitAtCommas(FLAGS_only));
   if (FLAGS_mode != "both" && FLAGS_mode != "lockstep" && FLAGS_mode != "free") {
-    throw ConfigError("--mode: must be lockstep, free or both, found '" + FLAGS_mode + "'");
+    throw UsageError("--mode: must be lockstep, free or both, found '" + FLAGS_mode + "'");
   }
-  if (FLAGS_every < 1) throw ConfigError("--every: must be at least 1");
+  if (FLAGS_every < 1) throw UsageError("--every: must be at least 1");
   request.lockstep = FLAGS_mode != "free";
   request.free = FLAGS_mode != "lockstep";
   request.lockstep_options.every = FLAGS_every;
@@ -114,28 +105,16 @@ trajlo::CompareRequest RequestFromFlags() {
   return request;
 }
 
-ExitCode Main(int argc, char** argv) {
-  if (trajlo::WantsHelp(argc, argv)) {
-    std::fputs(kHelp, stdout);
-    return ExitCode::kOk;
-  }
-  const std::vector<std::string> command_line(argv, argv + argc);
-  // Ceres reports each failed step as a warning; lockstep.csv counts them.
-  gflags::SetCommandLineOptionWithMode("minloglevel", "2", gflags::SET_FLAGS_DEFAULT);
-  gflags::SetCommandLineOptionWithMode("logtostderr", "true", gflags::SET_FLAGS_DEFAULT);
-  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
-  gflags::HandleCommandLineHelpFlags();
-  try {
-    if (argc > 1) throw ConfigError("unexpected argument '" + std::string(argv[1]) + "'");
-    trajlo::CompareRequest request = RequestFromFlags();
-    request.command_line = command_line;
-    return trajlo::RunComparison(request);
-  } catch (const ConfigError& error) {
-    std::fprintf(stderr, "trajlo_compare_solvers: %s\n(--help shows examples)\n", error.what());
-    return ExitCode::kUsage;
-  }
+ExitCode Compare(const trajlo::CommandLine& line) {
+  trajlo::RequireNoArguments(line);
+  trajlo::CompareRequest request = RequestFromFlags();
+  request.command_line = line.words;
+  trajlo::RunComparison(request);
+  return ExitCode::kOk;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return static_cast<int>(Main(argc, argv)); }
+int main(int argc, char** argv) {
+  return trajlo::RunCommand({"trajlo_compare_solvers", kHelp, Compare}, argc, argv);
+}

@@ -2,18 +2,17 @@
 // How far estimated trajectories are from the truth. See --help.
 #include <gflags/gflags.h>
 
-#include <csignal>
-#include <cstdio>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "apps/command.h"
 #include "apps/evaluate/evaluate_job.h"
 #include "apps/evaluate/flag_values.h"
 #include "apps/evaluate/labels.h"
-#include "apps/evaluate/usage_error.h"
-#include "apps/wants_help.h"
+#include "apps/split_at_commas.h"
+#include "apps/usage_error.h"
 #include "core/evaluation/format_text.h"
-#include "core/report/versions.h"
 
 DEFINE_string(truth, "", "the ground truth; all other arguments are estimates then");
 DEFINE_string(names, "", "names of the estimates, separated by commas");
@@ -25,9 +24,10 @@ DEFINE_string(format, "auto", "of the estimates: auto, tum, kitti or euroc");
 DEFINE_string(truth_format, "auto", "of the ground truth: auto, tum, kitti or euroc");
 DEFINE_string(times, "", "stamps for the lines of KITTI files");
 DEFINE_string(repeated_stamps, "auto", "auto, first, last or all");
-DEFINE_string(association, "interpolate", "interpolate, interpolate_estimate or nearest");
+DEFINE_string(association, "interpolate",
+              "interpolate, interpolate_estimate, nearest or one_to_one");
 DEFINE_double(max_gap_s, 0.0, "do not interpolate across longer gaps; 0 for automatic");
-DEFINE_double(max_time_difference_s, 0.01, "of the pairs of --association=nearest");
+DEFINE_double(max_time_difference_s, 0.01, "of pairs that are not interpolated");
 DEFINE_double(time_offset_s, 0.0, "added to the stamps of the estimates");
 DEFINE_bool(estimate_time_offset, false, "find the offset with the smallest absolute error");
 DEFINE_double(time_offset_reach_s, 0.5, "how far from --time_offset_s it is looked for");
@@ -73,15 +73,18 @@ Files are in TUM's, KITTI's or EuRoC's format, told by their content.
   --format=, --truth_format=auto|tum|kitti|euroc
   --times=FILE                stamps for the lines of KITTI files
   --repeated_stamps=auto|first|last|all   which poses of the same stamp count; auto is all with
-                              --association=nearest (as evo), else first
+                              --association=nearest (as evo), last with one_to_one (as the TUM
+                              RGB-D benchmark), else first
 
 Pairs
   --association=interpolate   the truth at every pose of the estimate (the default),
                interpolate_estimate   the estimate at every pose of the truth (for sparse truth),
-               nearest        no interpolation, evo's rule
+               nearest        no interpolation, evo's rule,
+               one_to_one     no interpolation, closest pairs first and no pose twice: the TUM
+                              RGB-D benchmark's rule (--max_time_difference_s=0.02 by default there)
   --max_gap_s=S               do not interpolate across longer gaps; 0: 2.5 typical intervals, at
                               least 0.05 s
-  --max_time_difference_s=S   of nearest poses (0.01)
+  --max_time_difference_s=S   of nearest poses and one-to-one pairs (0.01)
   --time_offset_s=S           added to the stamps of the estimate (0)
   --estimate_time_offset      find the offset that makes the absolute position error smallest, up
                               to --time_offset_reach_s=S (0.5) away
@@ -110,12 +113,6 @@ More flags: --overwrite, --quiet, --version
 Exit codes: 0 ok (also if a run diverged), 1 wrong usage, 2 input unreadable or nothing to compare,
 3 some of several estimates could not be compared, 5 output not writable.
 )";
-
-void PrintVersion() {
-  const trajlo::Versions v = trajlo::GetVersions();
-  std::printf("trajlo_evaluate %s (commit %s; Eigen %s, %s)\n", v.trajlo.c_str(), v.git.c_str(),
-              v.eigen.c_str(), v.compiler.c_str());
-}
 
 void CheckRange(const char* flag, double value, double low, double high) {
   if (value >= low && value <= high) return;
@@ -204,31 +201,14 @@ EvaluateRequest RequestFromFlags(std::vector<std::string> arguments) {
   return request;
 }
 
-ExitCode Main(int argc, char** argv) {
-  if (trajlo::WantsHelp(argc, argv)) {
-    std::fputs(kHelp, stdout);
-    return ExitCode::kOk;
-  }
-  const std::vector<std::string> command_line(argv, argv + argc);
-  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
-  if (gflags::GetCommandLineFlagInfoOrDie("version").current_value == "true") {
-    PrintVersion();
-    return ExitCode::kOk;
-  }
-  gflags::HandleCommandLineHelpFlags();
-  // A limit on file sizes is then an error of the write, like a full disk.
-  std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    EvaluateRequest request = RequestFromFlags({argv + 1, argv + argc});
-    request.command_line = command_line;
-    return trajlo::EvaluateJob(request);
-  } catch (const UsageError& error) {
-    std::fprintf(stderr, "trajlo_evaluate: %s\n(trajlo_evaluate --help shows examples)\n",
-                 error.what());
-    return ExitCode::kUsage;
-  }
+ExitCode Evaluate(const trajlo::CommandLine& line) {
+  EvaluateRequest request = RequestFromFlags(line.arguments);
+  request.command_line = line.words;
+  return trajlo::EvaluateJob(request);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return static_cast<int>(Main(argc, argv)); }
+int main(int argc, char** argv) {
+  return trajlo::RunCommand({"trajlo_evaluate", kHelp, Evaluate}, argc, argv);
+}

@@ -2,13 +2,10 @@
 // What a recording holds, and how to run on it. See --help.
 #include <gflags/gflags.h>
 
-#include <cstdio>
-#include <cstring>
-#include <string>
-
+#include "apps/command.h"
 #include "apps/info/info_job.h"
-#include "apps/run/interrupt.h"
-#include "core/report/versions.h"
+#include "apps/interrupt.h"
+#include "apps/usage_error.h"
 
 DEFINE_bool(json, false, "print JSON");
 DEFINE_bool(quick, false, "read the first messages only");
@@ -37,37 +34,18 @@ Exit codes: 0 ok, 1 wrong usage, 2 a recording is unreadable, 3 a recording is d
 read is shown), 5 output not writable, 130 interrupted.
 )";
 
-bool Has(int argc, char** argv, std::initializer_list<const char*> flags) {
-  for (int i = 1; i < argc; ++i) {
-    for (const char* flag : flags) {
-      if (std::strcmp(argv[i], flag) == 0) return true;
-    }
-  }
-  return false;
+ExitCode Info(const trajlo::CommandLine& line) {
+  trajlo::InfoRequest request;
+  request.recordings = line.arguments;
+  request.json = FLAGS_json;
+  request.quick = FLAGS_quick;
+  request.quiet = FLAGS_quiet;
+  if (request.recordings.empty()) throw trajlo::UsageError("name a recording");
+  return trajlo::InfoJob(request, trajlo::HandleInterrupts());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Ahead of gflags, whose own help lists the flags of every library that is linked.
-  if (Has(argc, argv, {"--help", "-help", "-h"})) {
-    std::fputs(kHelp, stdout);
-    return static_cast<int>(ExitCode::kOk);
-  }
-  if (Has(argc, argv, {"--version", "-version"})) {
-    const trajlo::Versions versions = trajlo::GetVersions();
-    std::printf("trajlo_info %s (commit %s)\n", versions.trajlo.c_str(), versions.git.c_str());
-    return static_cast<int>(ExitCode::kOk);
-  }
-  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
-  trajlo::InfoRequest request;
-  request.recordings.assign(argv + 1, argv + argc);
-  request.json = FLAGS_json;
-  request.quick = FLAGS_quick;
-  request.quiet = FLAGS_quiet;
-  if (request.recordings.empty()) {
-    std::fprintf(stderr, "trajlo_info: name a recording\n(trajlo_info --help shows examples)\n");
-    return static_cast<int>(ExitCode::kUsage);
-  }
-  return static_cast<int>(trajlo::InfoJob(request, trajlo::HandleInterrupts()));
+  return trajlo::RunCommand({"trajlo_info", kHelp, Info}, argc, argv);
 }

@@ -3,15 +3,15 @@
 #include <gflags/gflags.h>
 
 #include <cstdio>
-#include <sstream>
 #include <string>
 
-#include "apps/run/interrupt.h"
+#include "apps/command.h"
+#include "apps/interrupt.h"
+#include "apps/load_config.h"
+#include "apps/require_extrinsics.h"
 #include "apps/run/run_job.h"
-#include "apps/wants_help.h"
-#include "core/config/config.h"
+#include "apps/usage_error.h"
 #include "core/io/recording/open_recording.h"
-#include "core/report/versions.h"
 
 DEFINE_string(input, "", "the recording: bag, capture or folder of scans; several with commas");
 DEFINE_string(output, "", "the folder to write");
@@ -28,8 +28,8 @@ DEFINE_bool(show_config, false, "print the configuration with all options explai
 
 namespace {
 
-using trajlo::ConfigError;
 using trajlo::ExitCode;
+using trajlo::UsageError;
 
 constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory and a map come out.
 
@@ -54,7 +54,7 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
   trajlo_run --input=kitti/sequences/00 --output=result --config=config/datasets/kitti.yaml
       motion-corrected scans without point times
   trajlo_run --input=front,rear --output=result --config=rig.yaml
-      several LiDARs; sensor.T_body_lidar in the configuration says where each one sits
+      several LiDARs; sensor.T_body_lidar in the configuration must say where each one sits
 
 More flags:
   --solver=ceres|gauss_newton   how a window is solved (solver.kind)
@@ -71,19 +71,8 @@ damaged, 4 the estimator got lost, 5 output not writable, 130 interrupted. After
 result until then is there.
 )";
 
-void PrintVersion() {
-  const trajlo::Versions v = trajlo::GetVersions();
-  std::printf("trajlo_run %s (commit %s; Eigen %s, Ceres %s, %s)\n", v.trajlo.c_str(),
-              v.git.c_str(), v.eigen.c_str(), v.ceres.c_str(), v.compiler.c_str());
-}
-
 trajlo::RunConfig ConfigFromFlags() {
-  trajlo::RunConfig config;
-  std::istringstream files(FLAGS_config);
-  for (std::string file; std::getline(files, file, ',');) {
-    if (!file.empty()) trajlo::LoadConfigFile(file, &config);
-  }
-  trajlo::ApplyOverrides(FLAGS_set, &config);
+  trajlo::RunConfig config = trajlo::LoadConfig(FLAGS_config, FLAGS_set);
   if (!FLAGS_solver.empty()) {
     trajlo::ApplyOverrides("solver.kind=" + FLAGS_solver, &config, "--solver");
   }
@@ -96,16 +85,16 @@ trajlo::RunConfig ConfigFromFlags() {
 
 trajlo::SamplingOptions SamplingFromFlags() {
   if (FLAGS_rate != 0.0 && !FLAGS_at.empty()) {
-    throw ConfigError("--rate and --at exclude each other");
+    throw UsageError("--rate and --at exclude each other");
   }
   if (!(FLAGS_rate >= 0.0 && FLAGS_rate <= 1e6)) {
-    throw ConfigError("--rate: must be between 0 and 1e6 Hz");
+    throw UsageError("--rate: must be between 0 and 1e6 Hz");
   }
   if (FLAGS_rate > 0.0) return {trajlo::SampleAt::kRate, FLAGS_rate};
   if (FLAGS_at == "scan-end") return {trajlo::SampleAt::kScanEnd, 0.0};
   if (FLAGS_at == "scan-mid") return {trajlo::SampleAt::kScanMid, 0.0};
   if (!FLAGS_at.empty()) {
-    throw ConfigError("--at: must be scan-end or scan-mid, found '" + FLAGS_at + "'");
+    throw UsageError("--at: must be scan-end or scan-mid, found '" + FLAGS_at + "'");
   }
   return {};
 }
@@ -115,8 +104,9 @@ trajlo::RunRequest RequestFromFlags() {
   request.config = ConfigFromFlags();
   request.sampling = SamplingFromFlags();
   request.inputs = trajlo::InputPaths(FLAGS_input);
-  if (request.inputs.empty()) throw ConfigError("--input is missing");
-  if (FLAGS_output.empty()) throw ConfigError("--output is missing");
+  if (request.inputs.empty()) throw UsageError("--input is missing");
+  if (FLAGS_output.empty()) throw UsageError("--output is missing");
+  trajlo::RequireExtrinsics(request.inputs, request.config);
   request.output = FLAGS_output;
   request.covariance = FLAGS_covariance;
   request.overwrite = FLAGS_overwrite;
@@ -124,36 +114,19 @@ trajlo::RunRequest RequestFromFlags() {
   return request;
 }
 
-ExitCode Main(int argc, char** argv) {
-  if (trajlo::WantsHelp(argc, argv)) {
-    std::fputs(kHelp, stdout);
+ExitCode Run(const trajlo::CommandLine& line) {
+  trajlo::RequireNoArguments(line);
+  if (FLAGS_show_config) {
+    std::fputs(trajlo::DumpConfig(ConfigFromFlags()).c_str(), stdout);
     return ExitCode::kOk;
   }
-  const std::vector<std::string> command_line(argv, argv + argc);
-  // Ceres reports each failed step as a warning; what is done about it stands in windows.csv.
-  gflags::SetCommandLineOptionWithMode("minloglevel", "2", gflags::SET_FLAGS_DEFAULT);
-  gflags::SetCommandLineOptionWithMode("logtostderr", "true", gflags::SET_FLAGS_DEFAULT);
-  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
-  if (gflags::GetCommandLineFlagInfoOrDie("version").current_value == "true") {
-    PrintVersion();
-    return ExitCode::kOk;
-  }
-  gflags::HandleCommandLineHelpFlags();
-  try {
-    if (argc > 1) throw ConfigError("unexpected argument '" + std::string(argv[1]) + "'");
-    if (FLAGS_show_config) {
-      std::fputs(trajlo::DumpConfig(ConfigFromFlags()).c_str(), stdout);
-      return ExitCode::kOk;
-    }
-    trajlo::RunRequest request = RequestFromFlags();
-    request.command_line = command_line;
-    return trajlo::RunJob(request, trajlo::HandleInterrupts());
-  } catch (const ConfigError& error) {
-    std::fprintf(stderr, "trajlo_run: %s\n(trajlo_run --help shows examples)\n", error.what());
-    return ExitCode::kUsage;
-  }
+  trajlo::RunRequest request = RequestFromFlags();
+  request.command_line = line.words;
+  return trajlo::RunJob(request, trajlo::HandleInterrupts());
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return static_cast<int>(Main(argc, argv)); }
+int main(int argc, char** argv) {
+  return trajlo::RunCommand({"trajlo_run", kHelp, Run}, argc, argv);
+}

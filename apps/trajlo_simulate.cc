@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/command.h"
+#include "apps/usage_error.h"
+#include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/simulation/recording_writer.h"
 #include "core/simulation/scenario.h"
@@ -33,15 +36,14 @@ DEFINE_string(
     bag_layout, "",
     "of the points in the bag: ouster, velodyne or livox; empty: as each sensor's driver");
 DEFINE_string(bag_compression, "none", "of the bag: none, lz4 or bz2");
-DECLARE_bool(help);
 DEFINE_bool(overwrite, false, "replace what is in the output folder");
 
 namespace {
 
 namespace fs = std::filesystem;
+using trajlo::ExitCode;
+using trajlo::UsageError;
 using trajlo::simulation::Scenario;
-
-enum ExitCode { kOk = 0, kUsage = 1, kOutputNotWritable = 5 };
 
 constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
 
@@ -62,7 +64,8 @@ constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
   trajlo_simulate --scenario=hall_os1_16 --output=bagged --format=bag --bag_compression=lz4
       bagged/recording.bag in place of the scans, with the truth on /truth
 
-Exit codes: 0 done, 1 wrong usage, 5 the output cannot be written.)";
+Exit codes: 0 done, 1 wrong usage, 5 the output cannot be written.
+)";
 
 /// `key=value,key=value`. A piece without '=' belongs to the value before it, which lets a value
 /// hold commas: lidar0.T_body_lidar=0,0,0.1,0,0,0,1,seed=2.
@@ -76,14 +79,14 @@ void ApplySettings(const std::string& settings, Scenario* scenario) {
     } else if (!pairs.empty()) {
       pairs.back().second += "," + piece;
     } else {
-      throw std::invalid_argument("--set: expected key=value, got '" + piece + "'");
+      throw UsageError("--set: expected key=value, got '" + piece + "'");
     }
   }
   for (const auto& [key, value] : pairs) trajlo::simulation::SetParameter(scenario, key, value);
 }
 
 Scenario ScenarioFromFlags() {
-  if (FLAGS_scenario.empty()) throw std::invalid_argument("--scenario is missing; try --list");
+  if (FLAGS_scenario.empty()) throw UsageError("--scenario is missing; try --list");
   Scenario scenario = trajlo::simulation::MakeScenario(FLAGS_scenario);
   if (FLAGS_duration_s > 0.0) scenario.duration_s = FLAGS_duration_s;
   if (FLAGS_seed != 0) scenario.seed = static_cast<std::uint64_t>(FLAGS_seed);
@@ -96,39 +99,41 @@ std::optional<trajlo::simulation::BagFormat> BagFormatFromFlags(const Scenario& 
     return {};
   }
   if (FLAGS_format == "pcd") {
-    throw std::invalid_argument("--bag_layout and --bag_compression need --format=bag");
+    throw UsageError("--bag_layout and --bag_compression need --format=bag");
   }
   if (FLAGS_format != "bag") {
-    throw std::invalid_argument("--format: must be pcd or bag, found '" + FLAGS_format + "'");
+    throw UsageError("--format: must be pcd or bag, found '" + FLAGS_format + "'");
   }
   // Said before anything older is removed.
   if (scenario.motion_corrected) {
-    throw std::invalid_argument("motion-corrected scans are written as KITTI has them, in no bag");
+    throw UsageError("motion-corrected scans are written as KITTI has them, in no bag");
   }
   trajlo::simulation::BagFormat format;
   format.layout = trajlo::ParseCloudLayout(FLAGS_bag_layout);
   if (!format.layout && !FLAGS_bag_layout.empty()) {
-    throw std::invalid_argument("--bag_layout: must be ouster, velodyne or livox, found '" +
-                                FLAGS_bag_layout + "'");
+    throw UsageError("--bag_layout: must be ouster, velodyne or livox, found '" + FLAGS_bag_layout +
+                     "'");
   }
   const auto compression = trajlo::ParseBagCompression(FLAGS_bag_compression);
   if (!compression) {
-    throw std::invalid_argument("--bag_compression: must be none, lz4 or bz2, found '" +
-                                FLAGS_bag_compression + "'");
+    throw UsageError("--bag_compression: must be none, lz4 or bz2, found '" +
+                     FLAGS_bag_compression + "'");
   }
   format.compression = *compression;
   return format;
 }
 
-/// The examples, and the flags of this command only (gflags would add those of all libraries).
-void PrintHelp() {
-  std::printf("%s\n\nFlags:\n", kHelp);
+/// The examples, and the flags of this file.
+std::string Help() {
+  std::string text = std::string(kHelp) + "\nFlags:\n";
   std::vector<gflags::CommandLineFlagInfo> flags;
   gflags::GetAllFlags(&flags);
   for (const gflags::CommandLineFlagInfo& flag : flags) {
     if (flag.filename.find("trajlo_simulate") == std::string::npos) continue;
-    std::printf("  --%-16s %s\n", flag.name.c_str(), flag.description.c_str());
+    const std::string blanks(flag.name.size() < 16 ? 16 - flag.name.size() : 0, ' ');
+    text += "  --" + flag.name + blanks + " " + flag.description + "\n";
   }
+  return text;
 }
 
 void List() {
@@ -153,17 +158,16 @@ void PrepareOutput(const fs::path& output) {
       throw std::runtime_error("'" + output.string() +
                                "' is not empty; choose another folder or add --overwrite");
     }
-    for (const char* old : {"scans", "velodyne"}) fs::remove_all(output / old, error);
-    for (int id = 0; fs::remove_all(output / ("lidar" + std::to_string(id)), error) > 0; ++id) {
-    }
-    for (const char* old : {"recording.bag", "timestamps.txt", "times.txt", "poses.txt"}) {
+    trajlo::RemoveScans(output);
+    fs::remove_all(output / "velodyne", error);
+    for (const char* old : {"recording.bag", "times.txt", "poses.txt"}) {
       fs::remove(output / old, error);
     }
   }
 }
 
-void Run(const trajlo::simulation::Simulator& simulator,
-         const std::optional<trajlo::simulation::BagFormat>& bag) {
+void Write(const trajlo::simulation::Simulator& simulator,
+           const std::optional<trajlo::simulation::BagFormat>& bag) {
   const auto begin = std::chrono::steady_clock::now();
   trajlo::simulation::RecordingWriter writer(simulator, FLAGS_output, bag);
   trajlo::simulation::SimulateScans(simulator, FLAGS_threads,
@@ -179,40 +183,35 @@ void Run(const trajlo::simulation::Simulator& simulator,
       FLAGS_output.c_str(), seconds, 1e-6 * static_cast<double>(writer.points()) / seconds);
 }
 
+ExitCode Simulate(const trajlo::CommandLine& line) try {
+  trajlo::RequireNoArguments(line);
+  if (FLAGS_list) {
+    List();
+    return ExitCode::kOk;
+  }
+  const Scenario scenario = ScenarioFromFlags();
+  if (FLAGS_list_parameters) {
+    ListParameters(scenario);
+    return ExitCode::kOk;
+  }
+  if (FLAGS_output.empty()) throw UsageError("--output is missing");
+  const auto bag = BagFormatFromFlags(scenario);
+  const trajlo::simulation::Simulator simulator(scenario);
+  try {
+    PrepareOutput(FLAGS_output);
+    Write(simulator, bag);
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "trajlo_simulate: %s\n", error.what());
+    return ExitCode::kOutputNotWritable;
+  }
+  return ExitCode::kOk;
+} catch (const std::exception& error) {
+  // A scenario that cannot be made: parameters, or a file that they name.
+  throw UsageError(error.what());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  gflags::SetUsageMessage(kHelp);
-  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
-  if (FLAGS_help) {
-    PrintHelp();
-    return kOk;
-  }
-  gflags::HandleCommandLineHelpFlags();
-  try {
-    if (argc > 1) throw std::invalid_argument(std::string("unexpected argument '") + argv[1] + "'");
-    if (FLAGS_list) {
-      List();
-      return kOk;
-    }
-    const Scenario scenario = ScenarioFromFlags();
-    if (FLAGS_list_parameters) {
-      ListParameters(scenario);
-      return kOk;
-    }
-    if (FLAGS_output.empty()) throw std::invalid_argument("--output is missing");
-    const auto bag = BagFormatFromFlags(scenario);
-    const trajlo::simulation::Simulator simulator(scenario);
-    try {
-      PrepareOutput(FLAGS_output);
-      Run(simulator, bag);
-    } catch (const std::runtime_error& error) {
-      std::fprintf(stderr, "trajlo_simulate: %s\n", error.what());
-      return kOutputNotWritable;
-    }
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "trajlo_simulate: %s\n", error.what());
-    return kUsage;
-  }
-  return kOk;
+  return trajlo::RunCommand({"trajlo_simulate", Help(), Simulate}, argc, argv);
 }

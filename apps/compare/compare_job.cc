@@ -70,26 +70,17 @@ void Write(const CompareRequest& request, const CompareReport& report) {
 
 }  // namespace
 
-ExitCode RunComparison(const CompareRequest& request) {
-  try {
-    PrepareFolder(request);
-    CompareReport report;
-    Compare(request, &report);
-    Write(request, report);
-    const std::string problem =
-        request.draw ? RunDrawScript("draw_comparison.py", request.output) : "";
-    if (!problem.empty()) {
-      std::fprintf(stderr, "trajlo_compare_solvers: no figures: %s\n", problem.c_str());
-    }
-    if (!request.quiet) std::fputs(CompareTables(report).c_str(), stdout);
-    return ExitCode::kOk;
-  } catch (const OutputError& error) {
-    std::fprintf(stderr, "trajlo_compare_solvers: %s\n", error.what());
-    return ExitCode::kOutputNotWritable;
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "trajlo_compare_solvers: %s\n", error.what());
-    return ExitCode::kInputUnreadable;
+void RunComparison(const CompareRequest& request) {
+  PrepareFolder(request);
+  CompareReport report;
+  Compare(request, &report);
+  Write(request, report);
+  const std::string problem =
+      request.draw ? RunDrawScript("draw_comparison.py", request.output) : "";
+  if (!problem.empty()) {
+    std::fprintf(stderr, "trajlo_compare_solvers: no figures: %s\n", problem.c_str());
   }
+  if (!request.quiet) std::fputs(CompareTables(report).c_str(), stdout);
 }
 
 }  // namespace trajlo

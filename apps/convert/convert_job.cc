@@ -3,32 +3,21 @@
 
 #include <cmath>
 #include <cstdio>
-#include <vector>
 
 #include "apps/convert/convert_scans.h"
-#include "apps/info/reading_progress.h"
+#include "apps/print_warnings.h"
+#include "apps/reading_progress.h"
 #include "core/io/conversion/bag_copy.h"
 #include "core/io/conversion/extract_poses.h"
-#include "core/io/errors.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/trajectory_writer.h"
 
 namespace trajlo {
 namespace {
 
-constexpr std::size_t kPrintedWarnings = 10;
+constexpr char kCommand[] = "trajlo_convert";
 
 std::int64_t ToNs(double seconds) { return std::llround(1e9 * seconds); }
-
-void Warn(const std::vector<std::string>& warnings) {
-  for (std::size_t i = 0; i < warnings.size() && i < kPrintedWarnings; ++i) {
-    std::fprintf(stderr, "trajlo_convert: warning: %s\n", warnings[i].c_str());
-  }
-  if (warnings.size() > kPrintedWarnings) {
-    std::fprintf(stderr, "trajlo_convert: and %zu more warnings\n",
-                 warnings.size() - kPrintedWarnings);
-  }
-}
 
 IfExists WhatIfExists(const ConvertRequest& request) {
   return request.overwrite ? IfExists::kReplace : IfExists::kFail;
@@ -48,7 +37,7 @@ ExitCode WritePoses(const ConvertRequest& request) {
   }
   tum.Flush();
   tum.Close();
-  Warn(extracted.report.warnings);
+  PrintWarnings(kCommand, extracted.report.warnings);
   if (extracted.unreadable > 0) {
     std::fprintf(stderr, "trajlo_convert: %zu messages hold no pose\n", extracted.unreadable);
   }
@@ -71,7 +60,7 @@ ExitCode CopyMessages(const ConvertRequest& request, const std::atomic<bool>& st
     options.should_stop = [&] { return stop.load(); };
     copied = CopyBags(Ros1BagsOf(request.input), request.output, options);
   }
-  Warn(copied.report.warnings);
+  PrintWarnings(kCommand, copied.report.warnings);
   if (!request.quiet) {
     std::printf("%zu messages copied as they are to %s\n", copied.messages, request.output.c_str());
   }
@@ -80,7 +69,7 @@ ExitCode CopyMessages(const ConvertRequest& request, const std::atomic<bool>& st
 
 ExitCode WriteScans(const ConvertRequest& request, const std::atomic<bool>& stop) {
   const ConvertedScans converted = ConvertScans(request, stop);
-  Warn(converted.report.warnings);
+  PrintWarnings(kCommand, converted.report.warnings);
   if (!request.quiet) {
     std::printf("%zu scans of %zu LiDAR%s, %.2f million points, in %s\n", converted.scans,
                 converted.lidars, converted.lidars == 1 ? "" : "s",
@@ -98,16 +87,8 @@ ExitCode Convert(const ConvertRequest& request, const std::atomic<bool>& stop) {
 }  // namespace
 
 ExitCode ConvertJob(const ConvertRequest& request, const std::atomic<bool>& stop) {
-  try {
-    const ExitCode code = Convert(request, stop);
-    return stop ? ExitCode::kInterrupted : code;
-  } catch (const OutputError& error) {
-    std::fprintf(stderr, "trajlo_convert: %s\n", error.what());
-    return ExitCode::kOutputNotWritable;
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "trajlo_convert: %s\n", error.what());
-    return ExitCode::kInputUnreadable;
-  }
+  const ExitCode code = Convert(request, stop);
+  return stop ? ExitCode::kInterrupted : code;
 }
 
 }  // namespace trajlo

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/run/exit_code.h"
+#include "apps/exit_code.h"
 #include "core/io/messages/message_writer.h"
 #include "core/io/recording/recording_options.h"
 #include "core/io/ros1/ros1_bag_writer.h"
@@ -30,7 +30,7 @@ struct ConvertRequest {
   bool WritesBag() const { return poses.empty() && output.extension() == ".bag"; }
 };
 
-/// Converts; messages for people go to stdout and stderr.
+/// Converts; messages for people go to stdout and stderr. Throws InputError and OutputError.
 ExitCode ConvertJob(const ConvertRequest& request, const std::atomic<bool>& stop);
 
 }  // namespace trajlo

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/info/reading_progress.h"
+#include "apps/reading_progress.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/errors.h"
@@ -108,10 +108,7 @@ class FolderOutput : public Output {
     if (!fs::is_directory(output, error) || !request.overwrite) {
       throw OutputError(output, "is there already; choose another folder or add --overwrite");
     }
-    fs::remove_all(output / "scans", error);
-    fs::remove(output / "timestamps.txt", error);
-    for (int id = 0; fs::remove_all(output / ("lidar" + std::to_string(id)), error) > 0; ++id) {
-    }
+    RemoveScans(output);
   }
 
   std::vector<PcdFolderWriter> folders_;

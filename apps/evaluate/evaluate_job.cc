@@ -2,11 +2,11 @@
 #include "apps/evaluate/evaluate_job.h"
 
 #include <cstdio>
-#include <exception>
 
 #include "apps/evaluate/evaluation_table.h"
 #include "apps/evaluate/labels.h"
 #include "apps/evaluate/output_folder.h"
+#include "apps/print_warnings.h"
 #include "core/evaluation/evaluation_error.h"
 #include "core/io/errors.h"
 #include "core/io/scan_stamps.h"
@@ -15,7 +15,7 @@
 namespace trajlo {
 namespace {
 
-constexpr std::size_t kPrintedWarnings = 10;
+constexpr char kCommand[] = "trajlo_evaluate";
 
 struct NamedPoses {
   TimedPoses poses;
@@ -69,18 +69,8 @@ EstimateReport EvaluateOne(std::size_t index, const EvaluateRequest& request,
   return report;
 }
 
-void Print(const std::vector<std::string>& warnings) {
-  for (std::size_t i = 0; i < warnings.size() && i < kPrintedWarnings; ++i) {
-    std::fprintf(stderr, "warning: %s\n", warnings[i].c_str());
-  }
-  if (warnings.size() > kPrintedWarnings) {
-    std::fprintf(stderr, "warning: %zu more\n", warnings.size() - kPrintedWarnings);
-  }
-}
-
-ExitCode Run(const EvaluateRequest& request) {
-  const bool writes = !request.output.empty();
-  if (writes) CheckEvaluationFolder(request.output, request.overwrite);
+/// Reads everything and compares each estimate with the truth.
+EvaluationReport Compare(const EvaluateRequest& request) {
   EvaluationReport report;
   const NamedPoses truth = Read(request.truth, request.truth_format, request, &report.warnings);
   report.truth = truth.summary;
@@ -93,43 +83,45 @@ ExitCode Run(const EvaluateRequest& request) {
         "rotation error is computed (--truth_orientation=use computes it)");
   }
   const std::vector<std::string> file_names = FileNames(request.names);
-  std::size_t failures = 0;
   for (std::size_t i = 0; i < request.estimates.size(); ++i) {
     report.estimates.push_back(EvaluateOne(i, request, truth.poses, &report.warnings));
     report.estimates.back().errors_csv = "errors_" + file_names[i] + ".csv";
-    if (!report.estimates.back().evaluation) ++failures;
   }
-  Print(report.warnings);
+  return report;
+}
+
+/// Prints why estimates could not be compared, and returns how many.
+std::size_t PrintFailures(const EvaluationReport& report) {
+  std::size_t failures = 0;
   for (const EstimateReport& estimate : report.estimates) {
     if (estimate.evaluation) continue;
-    std::fprintf(stderr, "trajlo_evaluate: %s\n", estimate.failure.c_str());
+    std::fprintf(stderr, "%s: %s\n", kCommand, estimate.failure.c_str());
+    ++failures;
   }
-  if (failures == report.estimates.size()) return ExitCode::kInputUnreadable;
+  return failures;
+}
 
-  if (!request.quiet) std::fputs(EvaluationTable(request, report).c_str(), stdout);
-  std::fflush(stdout);
-  if (writes) {
-    WriteEvaluation(request, report);
-    const std::string problem =
-        request.draw ? RunDrawScript("draw_evaluation.py", request.output) : "";
-    if (!problem.empty()) std::fprintf(stderr, "warning: no figures: %s\n", problem.c_str());
-    if (!request.quiet) std::printf("result      %s\n", request.output.c_str());
-  }
-  return failures > 0 ? ExitCode::kPartialInput : ExitCode::kOk;
+void WriteAndDraw(const EvaluateRequest& request, const EvaluationReport& report) {
+  WriteEvaluation(request, report);
+  const std::string problem =
+      request.draw ? RunDrawScript("draw_evaluation.py", request.output) : "";
+  if (!problem.empty()) PrintWarnings(kCommand, {"no figures: " + problem});
+  if (!request.quiet) std::printf("result      %s\n", request.output.c_str());
 }
 
 }  // namespace
 
 ExitCode EvaluateJob(const EvaluateRequest& request) {
-  try {
-    return Run(request);
-  } catch (const OutputError& error) {
-    std::fprintf(stderr, "trajlo_evaluate: %s\n", error.what());
-    return ExitCode::kOutputNotWritable;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "trajlo_evaluate: %s\n", error.what());
-    return ExitCode::kInputUnreadable;
-  }
+  const bool writes = !request.output.empty();
+  if (writes) CheckEvaluationFolder(request.output, request.overwrite);
+  const EvaluationReport report = Compare(request);
+  PrintWarnings(kCommand, report.warnings);
+  const std::size_t failures = PrintFailures(report);
+  if (failures == report.estimates.size()) return ExitCode::kInputUnreadable;
+  if (!request.quiet) std::fputs(EvaluationTable(request, report).c_str(), stdout);
+  std::fflush(stdout);
+  if (writes) WriteAndDraw(request, report);
+  return failures > 0 ? ExitCode::kPartialInput : ExitCode::kOk;
 }
 
 }  // namespace trajlo

@@ -52,6 +52,9 @@ std::string ComparedText(const EvaluateRequest& request, const EvaluationReport&
     text = "poses paired line by line (no stamps)";
   } else if (o.association.rule == AssociationRule::kNearest) {
     text = FormatText("nearest poses within %g s", o.association.max_time_difference_s);
+  } else if (o.association.rule == AssociationRule::kOneToOne) {
+    text = FormatText("one-to-one pairs of poses closer than %g s",
+                      o.association.max_time_difference_s);
   } else {
     text = o.association.rule == AssociationRule::kInterpolate
                ? "ground truth interpolated at the times of the estimate"

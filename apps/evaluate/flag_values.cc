@@ -5,7 +5,8 @@
 #include <sstream>
 #include <utility>
 
-#include "apps/evaluate/usage_error.h"
+#include "apps/split_at_commas.h"
+#include "apps/usage_error.h"
 #include "core/io/number_text.h"
 
 namespace trajlo {
@@ -17,7 +18,8 @@ using Names = std::vector<std::pair<const char*, T>>;
 const Names<AssociationRule> kAssociations = {
     {"interpolate", AssociationRule::kInterpolate},
     {"interpolate_estimate", AssociationRule::kInterpolateEstimate},
-    {"nearest", AssociationRule::kNearest}};
+    {"nearest", AssociationRule::kNearest},
+    {"one_to_one", AssociationRule::kOneToOne}};
 const Names<AlignmentKind> kAlignments = {{"se3", AlignmentKind::kSe3},
                                           {"sim3", AlignmentKind::kSim3},
                                           {"scale", AlignmentKind::kScale},
@@ -68,15 +70,6 @@ std::vector<double> Numbers(const char* flag, const std::string& text) {
 
 }  // namespace
 
-std::vector<std::string> SplitAtCommas(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) {
-    if (!part.empty()) parts.push_back(part);
-  }
-  return parts;
-}
-
 AssociationRule ParseAssociation(const std::string& text) {
   return Find(kAssociations, "association", text);
 }
@@ -89,7 +82,9 @@ const char* AlignmentName(AlignmentKind kind) { return NameOf(kAlignments, kind)
 
 RepeatedStamps ParseRepeatedStamps(const std::string& text, AssociationRule rule) {
   if (text == "auto") {
-    return rule == AssociationRule::kNearest ? RepeatedStamps::kAll : RepeatedStamps::kFirst;
+    if (rule == AssociationRule::kNearest) return RepeatedStamps::kAll;
+    if (rule == AssociationRule::kOneToOne) return RepeatedStamps::kLast;
+    return RepeatedStamps::kFirst;
   }
   return Find(kRepeatedStamps, "repeated_stamps", text);
 }

@@ -10,10 +10,7 @@ namespace trajlo {
 
 // What stands in the flags of trajlo_evaluate. All throw UsageError, with the name of the flag.
 
-/// "a,b,,c" without empty parts.
-std::vector<std::string> SplitAtCommas(const std::string& text);
-
-/// "interpolate", "interpolate_estimate", "nearest".
+/// "interpolate", "interpolate_estimate", "nearest", "one_to_one".
 AssociationRule ParseAssociation(const std::string& text);
 const char* AssociationName(AssociationRule rule);
 
@@ -21,7 +18,8 @@ const char* AssociationName(AssociationRule rule);
 AlignmentKind ParseAlignment(const std::string& text);
 const char* AlignmentName(AlignmentKind kind);
 
-/// "auto" (all with the association that copies evo, else the first), "first", "last", "all".
+/// "auto" (all with the association that copies evo, the last with the one that copies the TUM RGB-D
+/// benchmark, else the first), "first", "last", "all".
 RepeatedStamps ParseRepeatedStamps(const std::string& text, AssociationRule rule);
 const char* RepeatedStampsName(RepeatedStamps repeated_stamps);
 

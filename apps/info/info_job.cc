@@ -6,7 +6,7 @@
 
 #include "apps/info/info_json.h"
 #include "apps/info/info_table.h"
-#include "apps/info/reading_progress.h"
+#include "apps/reading_progress.h"
 #include "core/io/errors.h"
 #include "core/io/inspection/inspect_recording.h"
 

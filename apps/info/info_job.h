@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/run/exit_code.h"
+#include "apps/exit_code.h"
 
 namespace trajlo {
 

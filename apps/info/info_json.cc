@@ -16,19 +16,6 @@ Json OrNull(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-const char* OriginName(TimeOrigin origin) {
-  switch (origin) {
-    case TimeOrigin::kSweepStart:
-      return "start";
-    case TimeOrigin::kSweepEnd:
-      return "end";
-    case TimeOrigin::kStamp:
-      return "stamp";
-    default:
-      return "absolute";
-  }
-}
-
 Json StampJson(const StampSummary& stamps) {
   Json json = {{"count", stamps.count},
                {"first_ns", stamps.first_ns},
@@ -83,7 +70,7 @@ Json TimeJson(const CloudInspection& cloud) {
   json["stamp_is_assumed"] = cloud.stamp_is_assumed;
   if (convention.HasPointTimes()) {
     json["unit"] = NameOf(convention.unit);
-    json["origin"] = OriginName(convention.origin);
+    json["origin"] = NameOf(convention.origin);
     json["stamp_at"] = convention.stamp_at == StampAt::kEnd ? "end" : "start";
     json["sweep_ns"] = convention.sweep_ns;
     json["clock_offset_ns"] = convention.clock_offset_ns;

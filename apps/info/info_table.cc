@@ -161,6 +161,7 @@ std::string CloudBlock(const CloudInspection& cloud, std::size_t lidar) {
   std::string frames;
   for (const std::string& frame : cloud.frame_ids) frames += (frames.empty() ? "" : ", ") + frame;
   if (!frames.empty()) block += Line("frame", frames);
+  if (!cloud.remark.empty()) block += Line("packets", cloud.remark);
   block += Line("fields", FieldText(cloud));
   block += PointLines(cloud.points) + StampLines(cloud.stamps) + TimeLines(cloud);
   if (cloud.phase) {

@@ -6,6 +6,7 @@
 #include <exception>
 #include <sstream>
 
+#include "apps/print_warnings.h"
 #include "core/estimation/odometry.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
@@ -26,8 +27,6 @@ namespace trajlo {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t kPrintedWarnings = 10;
 
 double SecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -220,13 +219,7 @@ RunSummary StartSummary(const RunRequest& request) {
 }
 
 void Print(const RunRequest& request, const RunSummary& summary) {
-  for (std::size_t i = 0; i < summary.warnings.size() && i < kPrintedWarnings; ++i) {
-    std::fprintf(stderr, "trajlo_run: warning: %s\n", summary.warnings[i].c_str());
-  }
-  if (summary.warnings.size() > kPrintedWarnings) {
-    std::fprintf(stderr, "trajlo_run: %zu more warnings are in run.json\n",
-                 summary.warnings.size() - kPrintedWarnings);
-  }
+  PrintWarnings("trajlo_run", summary.warnings, " are in run.json");
   if (!request.quiet) std::fputs(SummaryTable(summary).c_str(), stdout);
   if (!summary.message.empty()) {
     std::fprintf(stderr, "trajlo_run: %s\n", summary.message.c_str());

@@ -6,6 +6,7 @@
 
 #include "core/evaluation/evaluation_error.h"
 #include "core/evaluation/format_text.h"
+#include "core/evaluation/one_to_one.h"
 #include "core/evaluation/stamp_search.h"
 #include "core/io/scan_stamps.h"
 
@@ -36,7 +37,8 @@ std::string Span(const char* name, double begin_s, double end_s) {
                  : FormatText(
                        "Do both clocks agree? (--time_offset_s=%.3f would let both begin together)",
                        truth_begin - Seconds(estimate.t_ns.front()));
-  } else if (options.rule == AssociationRule::kNearest) {
+  } else if (options.rule == AssociationRule::kNearest ||
+             options.rule == AssociationRule::kOneToOne) {
     advice = FormatText(
         "None is within %g s; --max_time_difference_s allows more, and --association=interpolate "
         "needs no tolerance",
@@ -80,6 +82,17 @@ std::vector<PosePair> PairNearest(const TimedPoses& estimate, const TimedPoses& 
   return pairs;
 }
 
+std::vector<PosePair> PairClosestFirst(const TimedPoses& estimate, const TimedPoses& truth,
+                                       std::int64_t offset_ns, double max_difference_s) {
+  std::vector<std::int64_t> estimate_ns = estimate.t_ns;
+  for (std::int64_t& t_ns : estimate_ns) t_ns += offset_ns;
+  std::vector<PosePair> pairs;
+  for (const auto& [t, e] : PairOneToOne(truth.t_ns, estimate_ns, max_difference_s)) {
+    pairs.push_back({estimate_ns[e], e, estimate.T_world_body[e], truth.T_world_body[t]});
+  }
+  return pairs;
+}
+
 /// The pose at a fraction of the way from a to b.
 Eigen::Affine3d Interpolate(const Eigen::Affine3d& a, const Eigen::Affine3d& b, double fraction) {
   const Eigen::Quaterniond q =
@@ -118,6 +131,8 @@ std::vector<PosePair> Associate(const TimedPoses& estimate, const TimedPoses& tr
   double max_gap_s = options.max_gap_s;
   if (options.rule == AssociationRule::kNearest) {
     pairs = PairNearest(estimate, truth, time_offset_ns, options.max_time_difference_s);
+  } else if (options.rule == AssociationRule::kOneToOne) {
+    pairs = PairClosestFirst(estimate, truth, time_offset_ns, options.max_time_difference_s);
   } else if (options.rule == AssociationRule::kInterpolate) {
     if (max_gap_s <= 0.0) max_gap_s = MaxGap(truth.t_ns);
     InterpolateAt(

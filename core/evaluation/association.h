@@ -19,12 +19,15 @@ namespace trajlo {
 ///   kNearest              evo's rule: nothing is interpolated; for each pose of the trajectory
 ///                         with fewer poses (the estimate if both have the same number) the
 ///                         nearest one of the other, the first of two that are equally near
+///   kOneToOne             the rule of the TUM RGB-D benchmark's absolute error: nothing is
+///                         interpolated; the closest pairs first, and no pose twice
 /// Trajectories that both have no stamps are paired line by line, whatever the rule.
-enum class AssociationRule { kInterpolate, kInterpolateEstimate, kNearest };
+enum class AssociationRule { kInterpolate, kInterpolateEstimate, kNearest, kOneToOne };
 
 struct PoseAssociationOptions {
   AssociationRule rule = AssociationRule::kInterpolate;
-  /// kNearest: pairs further apart are dropped; a difference of exactly this much is kept.
+  /// kNearest and kOneToOne: pairs further apart are dropped. A difference of exactly this much is
+  /// kept by the one and dropped by the other, as the tools do that define them.
   double max_time_difference_s = 0.01;
   /// Nothing is interpolated across a longer gap. 0: MaxGap() decides.
   double max_gap_s = 0.0;

@@ -7,6 +7,7 @@
 #include "core/io/errors.h"
 #include "core/io/pcd_reader.h"
 #include "core/io/ply_reader.h"
+#include "core/io/velodyne_payloads.h"
 
 namespace trajlo {
 namespace {
@@ -35,6 +36,10 @@ void CheckPlausible(const std::filesystem::path& path, const PointTable& table) 
 }
 
 PointTable ReadKittiBin(const std::filesystem::path& path, FileBytes bytes) {
+  if (BeginsAsVelodynePayloads(bytes.view())) {
+    throw InputError(path, "these are packets of a Velodyne, not the points of a scan",
+                     "Give the file itself in place of its folder.");
+  }
   constexpr std::size_t kRowBytes = 4 * sizeof(float);
   PointTable table;
   table.count = bytes.size() / kRowBytes;

@@ -73,12 +73,8 @@ struct TimeConvention {
 std::int64_t NanosecondsPer(TimeUnit unit);
 /// "s", "ms", "us", "ns"
 const char* NameOf(TimeUnit unit);
-/// "s" | "ms" | "us" | "ns" | "auto"; nothing for other text.
-std::optional<TimeUnit> ParseTimeUnit(const std::string& text);
-/// "start" | "stamp" | "end" | "absolute" | "auto"
-std::optional<TimeOrigin> ParseTimeOrigin(const std::string& text);
-/// "start" | "end" | "auto"
-std::optional<StampAt> ParseStampAt(const std::string& text);
+/// "start", "stamp", "end", "absolute"
+const char* NameOf(TimeOrigin origin);
 
 /// Decides unit and origin: the unit is the one that makes a scan's span one sweep (compared with
 /// the period of the stamps, else with plausible sweeps), the origin follows from where zero and

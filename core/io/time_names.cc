@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The words by which configs and messages name the parts of a time convention.
+// The units of times, and the words by which messages name the parts of a time convention.
 #include "core/io/time_convention.h"
 
 namespace trajlo {
@@ -32,28 +32,19 @@ const char* NameOf(TimeUnit unit) {
   }
 }
 
-std::optional<TimeUnit> ParseTimeUnit(const std::string& text) {
-  for (const TimeUnit unit : {TimeUnit::kAuto, TimeUnit::kSeconds, TimeUnit::kMilliseconds,
-                              TimeUnit::kMicroseconds, TimeUnit::kNanoseconds}) {
-    if (text == NameOf(unit)) return unit;
+const char* NameOf(TimeOrigin origin) {
+  switch (origin) {
+    case TimeOrigin::kAuto:
+      return "auto";
+    case TimeOrigin::kSweepStart:
+      return "start";
+    case TimeOrigin::kStamp:
+      return "stamp";
+    case TimeOrigin::kSweepEnd:
+      return "end";
+    default:
+      return "absolute";
   }
-  return {};
-}
-
-std::optional<TimeOrigin> ParseTimeOrigin(const std::string& text) {
-  if (text == "auto") return TimeOrigin::kAuto;
-  if (text == "start") return TimeOrigin::kSweepStart;
-  if (text == "stamp") return TimeOrigin::kStamp;
-  if (text == "end") return TimeOrigin::kSweepEnd;
-  if (text == "absolute") return TimeOrigin::kAbsolute;
-  return {};
-}
-
-std::optional<StampAt> ParseStampAt(const std::string& text) {
-  if (text == "auto") return StampAt::kAuto;
-  if (text == "start") return StampAt::kStart;
-  if (text == "end") return StampAt::kEnd;
-  return {};
 }
 
 }  // namespace trajlo

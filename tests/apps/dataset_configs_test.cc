@@ -44,6 +44,14 @@ TEST_P(DatasetConfig, SaysWhereItsValuesAreFrom) {
   EXPECT_THAT(testing::ReadFile(GetParam()), ::testing::HasSubstr("Source"));
 }
 
+TEST_P(DatasetConfig, PlacesAllItsLidarsOrSaysThatItDoesNot) {
+  RunConfig config;
+  LoadConfigFile(GetParam(), &config);
+  const std::size_t lidars = config.input.topics.size();
+  if (lidars < 2 || config.odometry.segmenter.T_body_lidar.size() == lidars) return;
+  EXPECT_THAT(testing::ReadFile(GetParam()), ::testing::HasSubstr("INCOMPLETE BY ITSELF"));
+}
+
 RunConfig Load(const std::string& name) {
   RunConfig config;
   LoadConfigFile(fs::path(TRAJLO_CONFIG_DIR) / "datasets" / name, &config);

@@ -43,6 +43,7 @@ TEST(FlagValues, PosesAreVectorsAndQuaternionsOrMatrices) {
 
 TEST(FlagValues, RepeatedStampsFollowTheAssociation) {
   EXPECT_EQ(ParseRepeatedStamps("auto", AssociationRule::kNearest), RepeatedStamps::kAll);
+  EXPECT_EQ(ParseRepeatedStamps("auto", AssociationRule::kOneToOne), RepeatedStamps::kLast);
   EXPECT_EQ(ParseRepeatedStamps("auto", AssociationRule::kInterpolate), RepeatedStamps::kFirst);
   EXPECT_EQ(ParseRepeatedStamps("last", AssociationRule::kNearest), RepeatedStamps::kLast);
 }

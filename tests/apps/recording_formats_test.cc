@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/process.h"
+#include "tests/apps/command_testing.h"
 #include "tests/support/temp_folder.h"
 
 namespace trajlo::testing {
@@ -15,28 +15,28 @@ class RecordingFormats : public ::testing::Test {
  protected:
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
 
+  static void Call(const char* program, std::vector<std::string> arguments,
+                   const std::vector<std::string>& more = {}) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = CallProgram(program, arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+
   void Simulate(const std::string& scenario, const std::string& name,
                 const std::vector<std::string>& more) const {
-    std::vector<std::string> command = {TRAJLO_SIMULATE, "--scenario=" + scenario, "--duration_s=2",
-                                        "--output=" + Path(name)};
-    command.insert(command.end(), more.begin(), more.end());
-    const Process process(command);
-    ASSERT_EQ(process.Wait(), 0) << process.Err();
+    Call(TRAJLO_SIMULATE, {"--scenario=" + scenario, "--duration_s=2", "--output=" + Path(name)},
+         more);
   }
 
   void Convert(const std::string& from, const std::string& to,
                const std::vector<std::string>& more) const {
-    std::vector<std::string> command = {TRAJLO_CONVERT, Path(from), Path(to)};
-    command.insert(command.end(), more.begin(), more.end());
-    const Process process(command);
-    ASSERT_EQ(process.Wait(), 0) << process.Err();
+    Call(TRAJLO_CONVERT, {Path(from), Path(to)}, more);
   }
 
   /// The bytes of trajectory.tum; `rig` is the recording whose rig.yaml is used.
   std::string Trajectory(const std::string& recording, const std::string& rig) const {
-    const Process process({TRAJLO_RUN, "--input=" + Path(recording), "--output=" + Path("result"),
-                           "--config=" + Path(rig) + "/rig.yaml", "--overwrite", "--quiet"});
-    EXPECT_EQ(process.Wait(), 0) << process.Err();
+    Call(TRAJLO_RUN, {"--input=" + Path(recording), "--output=" + Path("result"),
+                      "--config=" + Path(rig) + "/rig.yaml", "--overwrite", "--quiet"});
     return ReadFile(Path("result") + "/trajectory.tum");
   }
 

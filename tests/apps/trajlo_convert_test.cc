@@ -4,7 +4,7 @@
 
 #include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_reader.h"
-#include "tests/support/process.h"
+#include "tests/apps/command_testing.h"
 #include "tests/support/room_recording.h"
 #include "tests/support/temp_folder.h"
 
@@ -15,16 +15,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string out, err;
-};
-
-Outcome Convert(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), TRAJLO_CONVERT);
-  const Process process(arguments);
-  const int exit_code = process.Wait();
-  return {exit_code, process.Out(), process.Err()};
+Outcome Convert(const std::vector<std::string>& arguments) {
+  return CallProgram(TRAJLO_CONVERT, arguments);
 }
 
 std::vector<LidarScan> ReadAll(const std::string& path) {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/trajectory_writer.h"
+#include "tests/apps/command_testing.h"
 #include "tests/core/evaluation/synthetic_poses.h"
-#include "tests/support/process.h"
 #include "tests/support/temp_folder.h"
 
 namespace trajlo::testing {
@@ -16,11 +16,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string out, err;
-};
 
 class TrajloEvaluateTest : public ::testing::Test {
  protected:
@@ -53,13 +48,11 @@ class TrajloEvaluateTest : public ::testing::Test {
 
   /// Names of files stand for those of the temporary folder.
   Outcome Call(const std::vector<std::string>& arguments, rlim_t max_file_bytes = 0) const {
-    std::vector<std::string> command = {TRAJLO_EVALUATE};
+    std::vector<std::string> whole;
     for (const std::string& argument : arguments) {
-      command.push_back(argument.rfind("--", 0) == 0 ? argument : Path(argument));
+      whole.push_back(argument.rfind("--", 0) == 0 ? argument : Path(argument));
     }
-    const Process process(command, max_file_bytes);
-    const int exit_code = process.Wait();
-    return {exit_code, process.Out(), process.Err()};
+    return CallProgram(TRAJLO_EVALUATE, whole, max_file_bytes);
   }
 
   std::string Output() const { return "--output=" + Path("out"); }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/conversion/scan_bag_writer.h"
-#include "tests/support/process.h"
+#include "tests/apps/command_testing.h"
 #include "tests/support/room_recording.h"
 #include "tests/support/temp_folder.h"
 
@@ -16,16 +16,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string out, err;
-};
-
-Outcome Info(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), TRAJLO_INFO);
-  const Process process(arguments);
-  const int exit_code = process.Wait();
-  return {exit_code, process.Out(), process.Err()};
+Outcome Info(const std::vector<std::string>& arguments) {
+  return CallProgram(TRAJLO_INFO, arguments);
 }
 
 /// Two LiDARs whose stamps mark the end of the sweep, the second 37 ms behind the first.

@@ -2,7 +2,6 @@
 // What the command does when something is wrong: the exit codes that scripts rely on, a message
 // that says what to do, and results that are kept.
 #include <csignal>
-
 #include <random>
 
 #include "tests/apps/trajlo_run_testing.h"
@@ -33,6 +32,31 @@ TEST_F(TrajloRunTest, WrongUsageIsOne) {
               HasSubstr("exclude each other"));
   EXPECT_THAT(error({"--input=x", "--output=y", "--set=map.radius_m=1,map.voxel_size_m=2"}),
               HasSubstr("map.radius_m (1.0)"));
+}
+
+TEST_F(TrajloRunTest, SeveralLidarsWithoutTheirPosesAreRefused) {
+  RoomRecording room;
+  room.scans = 4;
+  room.Write(temp_ / "in/lidar0");
+  room.Write(temp_ / "in/lidar1");
+  const Outcome without = Run();
+  EXPECT_EQ(without.exit_code, 1);
+  EXPECT_THAT(without.err,
+              AllOf(HasSubstr("2 LiDARs are read, and sensor.T_body_lidar is empty"),
+                    HasSubstr("# " + input() + "/lidar1"), HasSubstr("T_body_lidar=[{}, {}]")));
+  const Outcome too_few = Run({"--set=sensor.T_body_lidar=[{}]"});
+  EXPECT_EQ(too_few.exit_code, 1);
+  EXPECT_THAT(too_few.err, HasSubstr("sensor.T_body_lidar has 1"));
+  EXPECT_FALSE(fs::exists(output()));
+  EXPECT_EQ(Run({"--set=sensor.T_body_lidar=[{}, {}]"}).exit_code, 0);
+}
+
+TEST_F(TrajloRunTest, SeveralTopicsWithoutTheirPosesAreRefused) {
+  WriteFile(temp_ / "in.bag", "");
+  const Outcome outcome =
+      Call({"--input=" + input() + ".bag", "--output=" + output(), "--set=input.topics=[/a, /b]"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("sensor.T_body_lidar"), HasSubstr("# /b of ")));
 }
 
 TEST_F(TrajloRunTest, UnknownConfigKeyIsOneAndNamesTheLine) {

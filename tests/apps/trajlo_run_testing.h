@@ -8,23 +8,14 @@
 #include <vector>
 
 #include "core/io/trajectory_reader.h"
-#include "tests/support/process.h"
+#include "tests/apps/command_testing.h"
 #include "tests/support/room_recording.h"
 #include "tests/support/temp_folder.h"
 
 namespace trajlo::testing {
 
-/// What a call of trajlo_run left.
-struct Outcome {
-  int exit_code = -1;
-  std::string out, err;
-};
-
-inline Outcome Call(std::vector<std::string> arguments, rlim_t max_file_bytes = 0) {
-  arguments.insert(arguments.begin(), TRAJLO_RUN);
-  const Process process(arguments, max_file_bytes);
-  const int exit_code = process.Wait();
-  return {exit_code, process.Out(), process.Err()};
+inline Outcome Call(const std::vector<std::string>& arguments, rlim_t max_file_bytes = 0) {
+  return CallProgram(TRAJLO_RUN, arguments, max_file_bytes);
 }
 
 /// A recording in `input` and room for a result in `output`.

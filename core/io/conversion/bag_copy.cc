@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include "core/io/conversion/bag_definitions.h"
 #include "core/io/errors.h"
 #include "core/io/messages/report_merger.h"
 #include "core/io/ros1/ros1_bag_reader.h"
@@ -45,6 +44,40 @@ void CheckTopics(const std::filesystem::path& path,
   }
 }
 
+/// Copies what is wanted of bags that follow each other.
+class Copier {
+ public:
+  Copier(const BagCopyOptions& options, std::size_t listed, Ros1BagWriter* writer)
+      : options_(options), listed_(listed), writer_(writer) {}
+
+  void Copy(Ros1BagReader* reader) {
+    RawMessage message;
+    while (reader->Next(&message)) {
+      if (options_.should_stop && options_.should_stop()) break;
+      if (options_.on_progress) options_.on_progress(++read_, listed_);
+      if (!first_ns_) first_ns_ = message.recorded_ns;
+      const std::int64_t since_start_ns = message.recorded_ns - *first_ns_ - options_.start_ns;
+      if (since_start_ns < 0) continue;
+      // Messages come in the order of recording, so that nothing later belongs to the excerpt.
+      if (options_.duration_ns > 0 && since_start_ns >= options_.duration_ns) break;
+      if (!IsWanted(reader->connection().topic, options_)) continue;
+      writer_->Write(reader->connection(), message.recorded_ns, message.bytes.view());
+      ++result_.messages;
+    }
+    ReportMerger().Take(reader->report(), &result_.report);
+  }
+
+  const BagCopyResult& result() const { return result_; }
+
+ private:
+  const BagCopyOptions& options_;
+  std::size_t listed_;
+  Ros1BagWriter* writer_;
+  BagCopyResult result_;
+  std::optional<std::int64_t> first_ns_;
+  std::size_t read_ = 0;
+};
+
 }  // namespace
 
 BagCopyResult CopyBags(const std::vector<std::filesystem::path>& bags,
@@ -56,40 +89,17 @@ BagCopyResult CopyBags(const std::vector<std::filesystem::path>& bags,
     for (const Topic& topic : reader->topics()) listed += topic.messages;
   }
   Ros1BagWriter writer(output, options.output);
-  BagCopyResult result;
-  std::optional<std::int64_t> first_ns;
-  std::size_t read = 0;
-  for (std::size_t i = 0; i < bags.size(); ++i) {
-    Ros1BagReader& reader = *readers[i];
-    const auto definitions = ReadBagDefinitions(bags[i]);
-    RawMessage message;
-    ReportMerger merger;
-    while (reader.Next(&message)) {
-      if (options.should_stop && options.should_stop()) break;
-      if (options.on_progress) options.on_progress(++read, listed);
-      if (!first_ns) first_ns = message.recorded_ns;
-      const std::int64_t since_start_ns = message.recorded_ns - *first_ns - options.start_ns;
-      if (since_start_ns < 0) continue;
-      // Messages come in the order of recording, so that nothing later belongs to the excerpt.
-      if (options.duration_ns > 0 && since_start_ns >= options.duration_ns) break;
-      const Topic& topic = reader.topics()[message.topic];
-      if (!IsWanted(topic.name, options)) continue;
-      const auto found = definitions.find({topic.name, topic.type});
-      const BagDefinition definition = found == definitions.end() ? BagDefinition() : found->second;
-      writer.Write(topic.name,
-                   {topic.type.c_str(), definition.md5sum.c_str(), definition.definition.c_str()},
-                   message.recorded_ns, message.bytes.view());
-      ++result.messages;
-    }
-    merger.Take(reader.report(), &result.report);
-    readers[i].reset();
+  Copier copier(options, listed, &writer);
+  for (auto& reader : readers) {
+    copier.Copy(reader.get());
+    reader.reset();
   }
-  if (result.messages == 0) {
+  if (copier.result().messages == 0) {
     throw InputError(bags.front(), "no message lies in what is to be copied",
                      "Check --topics, --start_s and --duration_s with trajlo_info.");
   }
   writer.Close();
-  return result;
+  return copier.result();
 }
 
 }  // namespace trajlo

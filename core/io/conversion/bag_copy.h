@@ -31,10 +31,10 @@ struct BagCopyResult {
   MessageReport report;
 };
 
-/// Copies messages of ROS 1 bags that follow each other into one, byte by byte, with their types'
-/// definitions and times of recording. A damaged bag gives all that can be read, and the copy has
-/// an index again. Publishers of one topic become one, and are not latched. Throws InputError and
-/// OutputError.
+/// Copies messages of ROS 1 bags that follow each other into one, byte by byte, with their times of
+/// recording and with all that is known of their publishers (types' definitions, callerid,
+/// latching). A damaged bag gives all that can be read, and the copy has an index again. Throws
+/// InputError and OutputError.
 BagCopyResult CopyBags(const std::vector<std::filesystem::path>& bags,
                        const std::filesystem::path& output, const BagCopyOptions& options);
 

@@ -34,6 +34,14 @@ std::uint32_t OffsetNs(const fs::path& path, std::int64_t offset_ns) {
 
 }  // namespace
 
+void RemoveScans(const fs::path& folder) {
+  std::error_code error;
+  fs::remove_all(folder / "scans", error);
+  fs::remove(folder / "timestamps.txt", error);
+  for (int id = 0; fs::remove_all(folder / ("lidar" + std::to_string(id)), error) > 0; ++id) {
+  }
+}
+
 std::int64_t SweepStartOf(const LidarScan& scan) {
   if (!scan.has_point_times || scan.points.empty()) return scan.stamp_ns;
   const auto [first, last] =

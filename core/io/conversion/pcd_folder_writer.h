@@ -28,6 +28,9 @@ class PcdFolderWriter {
   std::vector<std::int64_t> stamps_ns_;
 };
 
+/// Removes what earlier PcdFolderWriters left in a folder and in its subfolders lidar0, lidar1, ...
+void RemoveScans(const std::filesystem::path& folder);
+
 /// What the times of a scan's points count from when it is written: the stamp where that marks the
 /// start of the sweep, else the first point.
 std::int64_t SweepStartOf(const LidarScan& scan);

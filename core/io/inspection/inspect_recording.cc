@@ -165,6 +165,7 @@ RecordingInspection InspectClouds(const fs::path& path, const Open& open,
     CloudInspection known;
     known.topic = topic.name;
     known.type = topic.type;
+    known.remark = topic.remark;
     known.messages_listed = topic.messages;
     known.stamp_is_recorded = !probes[i].HasStamps();
     try {

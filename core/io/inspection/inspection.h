@@ -47,6 +47,8 @@ struct FieldDescription {
 /// The point clouds of one topic or folder: one LiDAR.
 struct CloudInspection {
   std::string topic, type;
+  /// See Topic::remark.
+  std::string remark;
   std::size_t messages_listed = 0;
   std::size_t messages_read = 0;
   /// Messages without positions, and why the first is one.

@@ -100,8 +100,9 @@ void AddExtrinsicRemarks(const std::vector<CloudInspection>& clouds, bool is_fol
     return;
   }
   advice->remarks.push_back(
-      "where the LiDARs sit is not known: give sensor.T_body_lidar, one pose for each in this "
-      "order, in a config of your own (--config=...,rig.yaml)");
+      "where the LiDARs sit is not known, and the command will be refused without it: give "
+      "sensor.T_body_lidar, one pose for each in this order, in a config of your own "
+      "(--config=...,rig.yaml)");
   const std::string& first = clouds.front().topic;
   advice->remarks.push_back("to run on one LiDAR: " +
                             (is_folder ? "--input=" + first : "--set=input.topics=" + first));

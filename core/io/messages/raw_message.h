@@ -21,6 +21,8 @@ struct Topic {
   Encoding encoding = Encoding::kRos1;
   /// As many as the file lists, or as a scan of a damaged file found.
   std::uint64_t messages = 0;
+  /// What else is known of it, to be printed: of sensors' packets how their times are understood.
+  std::string remark{};
 };
 
 /// A message as the bag holds it.

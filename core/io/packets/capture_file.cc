@@ -11,6 +11,7 @@
 #include "core/io/packets/byte_order.h"
 #include "core/io/packets/ip_packet.h"
 #include "core/io/packets/velodyne_packet.h"
+#include "core/io/velodyne_payloads.h"
 
 namespace trajlo {
 namespace {
@@ -23,10 +24,6 @@ std::int64_t CapturedNs(const pcap_pkthdr& header) {
   const std::int64_t seconds = std::clamp<std::int64_t>(header.ts.tv_sec, 0, kLatestS);
   const std::int64_t ns = std::clamp<std::int64_t>(header.ts.tv_usec, 0, 999'999'999);
   return seconds * 1'000'000'000 + ns;
-}
-
-bool LooksLikePayloads(const std::uint8_t* head, std::size_t size) {
-  return size == 104 && Big16(head) == 0xffee && Big16(head + 100) == 0xffee;
 }
 
 }  // namespace
@@ -49,10 +46,10 @@ void CaptureFile::Open() {
     throw InputError(path_, std::string("opening failed: ") + std::strerror(errno),
                      "Check that the file exists and that you may read it.");
   }
-  std::uint8_t head[104];
+  char head[kVelodynePacketSize];
   const std::size_t got = std::fread(head, 1, sizeof head, file.get());
   std::rewind(file.get());
-  if (LooksLikePayloads(head, got)) {
+  if (BeginsAsVelodynePayloads({head, got})) {
     payloads_ = std::move(file);
     payload_.resize(kVelodynePacketSize);
     return;

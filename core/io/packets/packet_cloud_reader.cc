@@ -37,7 +37,6 @@ PacketCloudReader::PacketCloudReader(const std::filesystem::path& path,
       survey_(SurveyCapture(path_, options_, &capture_)) {
   NameTopics();
   RequireSweeps();
-  Describe();
   ReportCapture();
   readings_.resize(topics_.size());
   for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
@@ -73,6 +72,7 @@ void PacketCloudReader::NameTopics() {
     } else if (stream.kind == Kind::kOuster) {
       topic.type = survey_.metadata[stream.metadata].product + " packets";
     }
+    topic.remark = RemarkOn(stream);
     topics_.push_back(std::move(topic));
   }
 }
@@ -106,30 +106,22 @@ std::int64_t PacketCloudReader::ClockOffsetNs(const PacketStream& stream) const 
   return options_.join_clocks && apart ? stream.capture_offset_ns : 0;
 }
 
-void PacketCloudReader::Describe() {
-  for (std::size_t topic = 0; topic < topics_.size(); ++topic) {
-    const PacketStream& stream = survey_.streams[topic];
-    std::string line = topics_[topic].name + ": " + topics_[topic].type + ", " +
-                       std::to_string(stream.datagrams) + " datagrams";
-    if (stream.IsReadable()) line += ", " + std::to_string(stream.sweeps) + " sweeps";
-    if (stream.kind == Kind::kVelodyne && stream.IsReadable()) {
-      line += stream.gps_ahead_ns ? "; the hour is that of the GPS"
-              : capture_.IsPayloadFile() && !options_.start_ns
-                  ? "; the hour is not known: times count from the full hour"
-                  : "; the hour is that of the capture";
+std::string PacketCloudReader::RemarkOn(const PacketStream& stream) const {
+  if (!stream.IsReadable()) return "";
+  std::string remark = std::to_string(stream.datagrams) + " datagrams; ";
+  if (stream.kind == Kind::kVelodyne) {
+    if (stream.gps_ahead_ns) return remark + "the hour is that of the GPS";
+    if (capture_.IsPayloadFile() && !options_.start_ns) {
+      return remark + "the hour is not known: times count from the full hour";
     }
-    if (stream.kind == Kind::kOuster) {
-      const OusterMetadata& metadata = survey_.metadata[stream.metadata];
-      line +=
-          "; " + metadata.mode + " " + metadata.profile + ", metadata of " + metadata.path.string();
-      const std::int64_t offset_ns = ClockOffsetNs(stream);
-      if (offset_ns != 0) {
-        line += "; its clock counts from power-on, " + std::to_string(offset_ns) +
-                " ns are added to join the capture's";
-      }
-    }
-    description_ += line + "\n";
+    return remark + "the hour is that of the capture";
   }
+  const OusterMetadata& metadata = survey_.metadata[stream.metadata];
+  remark += metadata.mode + " " + metadata.profile + ", metadata of " + metadata.path.string();
+  const std::int64_t offset_ns = ClockOffsetNs(stream);
+  if (offset_ns == 0) return remark;
+  return remark + "; its clock counts from power-on, " + std::to_string(offset_ns) +
+         " ns are added to join the capture's";
 }
 
 PacketCloudReader::Reading PacketCloudReader::MakeReading(std::size_t topic) const {

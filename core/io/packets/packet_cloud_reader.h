@@ -44,8 +44,6 @@ class PacketCloudReader : public CloudMessageReader {
   bool Next(CloudMessage* message) override;
   /// Losses of single sensors are listed when the end is reached.
   const MessageReport& report() const override { return report_; }
-  /// What was found and how it is understood, to be printed; a line for each sensor.
-  const std::string& description() const { return description_; }
 
  private:
   struct Reading {
@@ -56,7 +54,8 @@ class PacketCloudReader : public CloudMessageReader {
 
   void NameTopics();
   void RequireSweeps() const;
-  void Describe();
+  /// Topic::remark.
+  std::string RemarkOn(const PacketStream& stream) const;
   Reading MakeReading(std::size_t topic) const;
   std::int64_t ClockOffsetNs(const PacketStream& stream) const;
   void Take(const Datagram& packet);
@@ -69,7 +68,6 @@ class PacketCloudReader : public CloudMessageReader {
   CaptureFile capture_;
   CaptureSurvey survey_;
   std::vector<Topic> topics_;
-  std::string description_;
   MessageReport report_;
   /// The sensor's topic by port and source.
   std::map<std::tuple<std::uint16_t, IpAddress>, std::vector<std::size_t>> topics_at_;

@@ -82,9 +82,6 @@ VelodyneGeometry MakeGeometry(const char* name, std::size_t lasers, float distan
   return geometry;
 }
 
-constexpr VelodyneModel kModels[] = {VelodyneModel::kVlp16, VelodyneModel::kPuckHiRes,
-                                     VelodyneModel::kHdl32e, VelodyneModel::kVlp32c};
-
 }  // namespace
 
 const VelodyneGeometry& GeometryOf(VelodyneModel model) {
@@ -121,13 +118,6 @@ std::optional<VelodyneModel> VelodyneModelOf(std::uint8_t product_id) {
     default:
       return {};
   }
-}
-
-std::optional<VelodyneModel> ParseVelodyneModel(const std::string& name) {
-  for (const VelodyneModel model : kModels) {
-    if (name == GeometryOf(model).name) return model;
-  }
-  return {};
 }
 
 }  // namespace trajlo

@@ -40,7 +40,4 @@ const VelodyneGeometry& GeometryOf(VelodyneModel model);
 /// The model that the second factory byte of a packet names; none if it is not supported.
 std::optional<VelodyneModel> VelodyneModelOf(std::uint8_t product_id);
 
-/// "VLP-16" | "Puck Hi-Res" | "HDL-32E" | "VLP-32C"
-std::optional<VelodyneModel> ParseVelodyneModel(const std::string& name);
-
 }  // namespace trajlo

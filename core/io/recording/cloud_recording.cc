@@ -106,8 +106,9 @@ void CloudRecording::Describe() {
     const Topic& topic = reader_->topics()[stream.topic];
     description_ += (description_.empty() ? "" : "\n") + path_.string() + ": lidar " +
                     std::to_string(stream.lidar_id) + " is " + topic.name + " (" + topic.type +
-                    "), " + std::to_string(topic.messages) +
-                    " messages\npoint times: " + stream.convention.evidence;
+                    "), " + std::to_string(topic.messages) + " messages" +
+                    (topic.remark.empty() ? "" : "; " + topic.remark) +
+                    "\npoint times: " + stream.convention.evidence;
   }
 }
 

@@ -2,8 +2,8 @@
 #include "core/io/recording/open_clouds.h"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -14,6 +14,7 @@
 #include "core/io/ros1/ros1_bag_reader.h"
 #include "core/io/ros2/rosbag2_reader.h"
 #include "core/io/scan_listing.h"
+#include "core/io/velodyne_payloads.h"
 
 namespace trajlo {
 namespace {
@@ -34,11 +35,13 @@ std::vector<fs::path> Ros1Bags(const fs::path& folder) {
   return bags;
 }
 
+/// Enough for a packet of a Velodyne; all other kinds show themselves in a few bytes.
 std::string FirstBytes(const fs::path& path) {
-  std::array<char, 16> bytes{};
+  std::string bytes(1206, '\0');
   std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), bytes.size());
-  return {bytes.data(), static_cast<std::size_t>(file.gcount())};
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
 }
 
 bool BeginsWith(const std::string& bytes, std::string_view magic) {
@@ -61,17 +64,30 @@ std::unique_ptr<CloudMessageReader> OpenRos2(const fs::path& path) {
   return std::make_unique<RosCloudReader>(std::make_unique<Rosbag2Reader>(path), path);
 }
 
+[[noreturn]] void FailUnknown(const fs::path& path) {
+  constexpr char kFolder[] = "For scans as .pcd, .ply or .bin, give the folder that holds them.";
+  if (path.extension() != ".bin") {
+    throw InputError(path, "this file is neither a bag (.bag, .db3, .mcap) nor a capture (.pcap)",
+                     kFolder);
+  }
+  std::error_code error;
+  const bool may_be_scan = fs::file_size(path, error) % 16 == 0;
+  throw InputError(path,
+                   std::string("this .bin file does not begin with a data packet of a Velodyne") +
+                       (may_be_scan ? "; it may be a single scan" : ""),
+                   kFolder);
+}
+
 std::unique_ptr<CloudMessageReader> OpenFile(const fs::path& path) {
   const std::string bytes = FirstBytes(path);
   if (BeginsWith(bytes, "#ROSBAG V")) return OpenRos1(path);
-  if (IsCapture(bytes) || path.extension() == ".bin") {
+  if (IsCapture(bytes) || BeginsAsVelodynePayloads(bytes)) {
     return std::make_unique<PacketCloudReader>(path);
   }
   const bool is_ros2 =
       BeginsWith(bytes, "\x89MCAP") || BeginsWith(bytes, "SQLite format 3") || IsRos2Bag(path);
   if (is_ros2) return OpenRos2(path);
-  throw InputError(path, "this file is neither a bag (.bag, .db3, .mcap) nor a capture (.pcap)",
-                   "For scans as .pcd, .ply or .bin, give the folder that holds them.");
+  FailUnknown(path);
 }
 
 }  // namespace

@@ -10,13 +10,13 @@
 
 namespace trajlo {
 
-/// True for a file whose first bytes are those of a bag or of a capture of packets, and for a
-/// folder that holds such files and no scans of its own.
+/// True for any file (OpenClouds() tells what it is), and for a folder that is a ROS 2 bag or holds
+/// ROS 1 bags; other folders are those of scans.
 bool HoldsClouds(const std::filesystem::path& path);
 
-/// Opens a bag (ROS 1 .bag, ROS 2 .db3 or .mcap), a capture of packets (.pcap, .pcapng), or a
-/// folder of bags, which are read one after the other in the natural order of their names. The kind
-/// is told by the first bytes, not by the name. Throws InputError.
+/// Opens a bag (ROS 1 .bag, ROS 2 .db3 or .mcap), a capture of packets (.pcap, .pcapng, or bare
+/// payloads of a Velodyne), or a folder of bags, which are read one after the other in the natural
+/// order of their names. The kind is told by the first bytes, not by the name. Throws InputError.
 std::unique_ptr<CloudMessageReader> OpenClouds(const std::filesystem::path& path);
 
 /// The ROS 1 bags that `path` names: itself, or those in the folder, in the natural order of their
@@ -24,14 +24,6 @@ std::unique_ptr<CloudMessageReader> OpenClouds(const std::filesystem::path& path
 std::vector<std::filesystem::path> Ros1BagsOf(const std::filesystem::path& path);
 
 /// Opens a ROS 1 bag, or a ROS 2 bag (a file or a folder), whatever messages are in it. Throws
-/// InputError.
-std::unique_ptr<RawMessageReader> OpenMessages(const std::filesystem::path& path);
-
-/// The ROS 1 bags that `path` names: itself, or those in the folder, in the natural order of their
-/// names. Empty if it names none.
-std::vector<std::filesystem::path> Ros1BagsOf(const std::filesystem::path& path);
-
-/// Opens a ROS 1 bag, or a ROS 2 bag (a file or a folder), whatever messages it holds. Throws
 /// InputError.
 std::unique_ptr<RawMessageReader> OpenMessages(const std::filesystem::path& path);
 

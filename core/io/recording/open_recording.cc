@@ -48,6 +48,19 @@ std::vector<std::string> InputPaths(const std::string& input) {
   return paths;
 }
 
+std::vector<std::string> LidarNames(const std::vector<std::string>& inputs,
+                                    const RecordingOptions& options) {
+  std::vector<std::string> names;
+  for (const std::string& input : inputs) {
+    if (options.topics.empty() || !HoldsClouds(input)) {
+      names.push_back(input);
+      continue;
+    }
+    for (const std::string& topic : options.topics) names.push_back(topic + " of " + input);
+  }
+  return names;
+}
+
 std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs,
                                           const RecordingOptions& options) {
   std::vector<std::unique_ptr<ScanSource>> sources;

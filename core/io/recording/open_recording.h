@@ -14,6 +14,11 @@ namespace trajlo {
 /// lidar1, ... of the one folder that it names.
 std::vector<std::string> InputPaths(const std::string& input);
 
+/// What each LiDAR of the inputs is called, in the order of their ids: its topic with the file, or
+/// its folder. Opens nothing, and so does not know the topic where `options` name none.
+std::vector<std::string> LidarNames(const std::vector<std::string>& inputs,
+                                    const RecordingOptions& options);
+
 /// Opens a recording of one or several LiDARs. Each input is
 ///   - a folder of scans: one LiDAR,
 ///   - a bag (.bag, .db3, .mcap), a capture of packets (.pcap), or a folder of bags that follow

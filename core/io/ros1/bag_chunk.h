@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/ros1/bag_file.h"
+#include "core/io/random_access_file.h"
 #include "core/io/ros1/bag_record.h"
 #include "core/io/ros1/byte_buffer.h"
 #include "core/io/ros1/chunk_codec.h"
@@ -35,7 +35,7 @@ struct Chunk {
 class ChunkReader {
  public:
   /// `file` must outlive this.
-  explicit ChunkReader(const BagFile& file) : file_(file) {}
+  explicit ChunkReader(const RandomAccessFile& file) : file_(file) {}
 
   /// Reads the chunk whose record begins at `offset` and which ends before `limit`, where the next
   /// one begins. The length in its header is not relied upon: a recorder that crashed has left 0
@@ -43,7 +43,7 @@ class ChunkReader {
   void Read(std::uint64_t offset, std::uint64_t limit, Chunk* chunk);
 
  private:
-  const BagFile& file_;
+  const RandomAccessFile& file_;
   ByteBuffer stored_;
   Decompressor decompressor_;
 };

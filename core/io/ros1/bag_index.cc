@@ -12,7 +12,7 @@
 namespace trajlo::ros1 {
 namespace {
 
-void CheckIsBag(const BagFile& file) {
+void CheckIsBag(const RandomAccessFile& file) {
   std::string start(kMagic.size(), '\0');
   start.resize(file.Read(0, start.data(), start.size()));
   if (start == kMagic) return;
@@ -24,7 +24,7 @@ void CheckIsBag(const BagFile& file) {
                    "Check that the file is what its name says.");
 }
 
-void CheckIsNotEncrypted(const BagFile& file) {
+void CheckIsNotEncrypted(const RandomAccessFile& file) {
   const auto header = ReadRecord(file, kMagic.size());
   if (header && !header->fields().Find("encryptor").value_or("").empty()) {
     throw InputError(file.path(), "this bag is encrypted",
@@ -89,7 +89,7 @@ std::uint64_t CountMessages(const BagIndex& index) {
 }  // namespace
 
 void BagIndex::AddConnection(const Connection& connection) {
-  if (topic_of_connection.count(connection.id) > 0) return;
+  if (!connections.try_emplace(connection.id, connection).second) return;
   const auto known = std::find_if(topics.begin(), topics.end(), [&](const Topic& topic) {
     return topic.name == connection.topic && topic.type == connection.type;
   });
@@ -108,7 +108,7 @@ void BagIndex::AddChunk(ChunkEntry chunk, const std::map<std::uint32_t, std::uin
   chunks.push_back(std::move(chunk));
 }
 
-bool ReadIndex(const BagFile& file, BagIndex* index, std::string* why) {
+bool ReadIndex(const RandomAccessFile& file, BagIndex* index, std::string* why) {
   const auto header = ReadRecord(file, kMagic.size());
   if (!header || header->op != Op::kFileHeader) {
     *why = "its header is broken";
@@ -147,7 +147,7 @@ bool ReadIndex(const BagFile& file, BagIndex* index, std::string* why) {
   return true;
 }
 
-BagIndex BuildIndex(const BagFile& file, DamageLog* log) {
+BagIndex BuildIndex(const RandomAccessFile& file, DamageLog* log) {
   CheckIsBag(file);
   CheckIsNotEncrypted(file);
   BagIndex index;

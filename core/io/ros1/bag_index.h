@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/io/messages/raw_message.h"
-#include "core/io/ros1/bag_file.h"
+#include "core/io/random_access_file.h"
 #include "core/io/ros1/bag_record.h"
 #include "core/io/ros1/damage_log.h"
 
@@ -30,6 +30,8 @@ struct ChunkEntry {
 /// What a bag holds and where, from its index or from a scan.
 struct BagIndex {
   std::vector<Topic> topics;
+  /// By their ids.
+  std::map<std::uint32_t, Connection> connections;
   std::unordered_map<std::uint32_t, std::size_t> topic_of_connection;
   /// In the order of start_ns.
   std::vector<ChunkEntry> chunks;
@@ -42,10 +44,10 @@ struct BagIndex {
 /// Takes the index at the end of the bag if it is whole. Otherwise reads the bag from front to
 /// back, and says so in `log`. Throws InputError when this is no bag (format 2.0, not encrypted),
 /// or has no message that can be read although it is damaged.
-BagIndex BuildIndex(const BagFile& file, DamageLog* log);
+BagIndex BuildIndex(const RandomAccessFile& file, DamageLog* log);
 
 /// The parts of BuildIndex. ReadIndex returns false and says what is wrong in `why`.
-bool ReadIndex(const BagFile& file, BagIndex* index, std::string* why);
-BagIndex ScanBag(const BagFile& file, DamageLog* log);
+bool ReadIndex(const RandomAccessFile& file, BagIndex* index, std::string* why);
+BagIndex ScanBag(const RandomAccessFile& file, DamageLog* log);
 
 }  // namespace trajlo::ros1

@@ -75,7 +75,7 @@ std::optional<RecordView> TakeRecord(std::string_view* bytes) {
   return RecordView{*op, *fields, *data};
 }
 
-std::optional<FileRecord> ReadRecord(const BagFile& file, std::uint64_t offset) {
+std::optional<FileRecord> ReadRecord(const RandomAccessFile& file, std::uint64_t offset) {
   char start[512];  // Holds most headers: one read instead of three.
   std::string_view rest(start, file.Read(offset, start, sizeof(start)));
   const auto length = TakeLength(&rest);
@@ -101,14 +101,14 @@ std::optional<FileRecord> ReadRecord(const BagFile& file, std::uint64_t offset) 
   return record;
 }
 
-std::optional<std::string> ReadData(const BagFile& file, const FileRecord& record) {
+std::optional<std::string> ReadData(const RandomAccessFile& file, const FileRecord& record) {
   if (record.data_size > kMaxDataBytes || record.end() > file.size()) return std::nullopt;
   std::string data(record.data_size, '\0');
   if (file.Read(record.data_offset, data.data(), data.size()) < data.size()) return std::nullopt;
   return data;
 }
 
-std::uint64_t FindChunk(const BagFile& file, std::uint64_t offset) {
+std::uint64_t FindChunk(const RandomAccessFile& file, std::uint64_t offset) {
   // The field of a chunk's header that is the same in all: its length, "op=", 5.
   constexpr std::string_view kOpField("\4\0\0\0op=\5", 8);
   // What stands before it: the header's length, and perhaps, as writers differ in their order, the
@@ -141,7 +141,7 @@ std::optional<Connection> ParseConnection(const Fields& fields, std::string_view
   const auto more = Fields::Parse(data);
   const auto type = more ? more->Find("type") : std::nullopt;
   if (!id || !topic || !type) return std::nullopt;
-  return Connection{*id, std::string(*topic), std::string(*type)};
+  return Connection{*id, std::string(*topic), std::string(*type), std::string(data)};
 }
 
 }  // namespace trajlo::ros1

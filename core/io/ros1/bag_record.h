@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/ros1/bag_file.h"
+#include "core/io/random_access_file.h"
 
 namespace trajlo::ros1 {
 
@@ -77,18 +77,23 @@ struct FileRecord {
   std::uint64_t end() const { return data_offset + data_size; }
 };
 
-std::optional<FileRecord> ReadRecord(const BagFile& file, std::uint64_t offset);
+std::optional<FileRecord> ReadRecord(const RandomAccessFile& file, std::uint64_t offset);
 /// The data of a record; nothing if it is cut or too large for what such records hold.
-std::optional<std::string> ReadData(const BagFile& file, const FileRecord& record);
+std::optional<std::string> ReadData(const RandomAccessFile& file, const FileRecord& record);
 
 /// Where the next chunk record begins, at `offset` or behind it; the file's size if there is none.
-std::uint64_t FindChunk(const BagFile& file, std::uint64_t offset);
+std::uint64_t FindChunk(const RandomAccessFile& file, std::uint64_t offset);
 
 /// One publisher of a topic.
 struct Connection {
   std::uint32_t id = 0;
   std::string topic;
   std::string type;
+  /// All that the bag says of it, as fields: type, md5sum, message_definition, and where the
+  /// recorder knew them callerid and latching.
+  std::string header;
+
+  Fields fields() const { return *Fields::Parse(header); }
 };
 
 std::optional<Connection> ParseConnection(const Fields& fields, std::string_view data);

@@ -15,7 +15,7 @@ using Counts = std::map<std::uint32_t, std::uint64_t>;
 
 class Scanner {
  public:
-  Scanner(const BagFile& file, DamageLog* log) : file_(file), log_(log), reader_(file) {}
+  Scanner(const RandomAccessFile& file, DamageLog* log) : file_(file), log_(log), reader_(file) {}
 
   BagIndex Scan() {
     std::uint64_t offset = kMagic.size();
@@ -104,7 +104,7 @@ class Scanner {
     chunk_.reset();
   }
 
-  const BagFile& file_;
+  const RandomAccessFile& file_;
   DamageLog* log_;
   ChunkReader reader_;
   Chunk read_;
@@ -116,6 +116,6 @@ class Scanner {
 
 }  // namespace
 
-BagIndex ScanBag(const BagFile& file, DamageLog* log) { return Scanner(file, log).Scan(); }
+BagIndex ScanBag(const RandomAccessFile& file, DamageLog* log) { return Scanner(file, log).Scan(); }
 
 }  // namespace trajlo::ros1

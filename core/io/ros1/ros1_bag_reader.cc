@@ -118,7 +118,8 @@ bool Ros1BagReader::Take(OpenChunks::value_type* open, RawMessage* message) {
              place.size);
     return false;
   }
-  message->topic = index_.topic_of_connection.at(place.connection);
+  connection_ = place.connection;
+  message->topic = index_.topic_of_connection.at(connection_);
   message->recorded_ns = place.recorded_ns;
   if (message->bytes.size() < place.size) {
     message->bytes = FileBytes(place.size);

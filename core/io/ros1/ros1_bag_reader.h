@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/io/messages/raw_message.h"
+#include "core/io/random_access_file.h"
 #include "core/io/ros1/bag_chunk.h"
-#include "core/io/ros1/bag_file.h"
 #include "core/io/ros1/bag_index.h"
 #include "core/io/ros1/damage_log.h"
 
@@ -42,6 +42,9 @@ class Ros1BagReader : public RawMessageReader {
   bool Next(RawMessage* message) override;
   const MessageReport& report() const override { return log_.report(); }
 
+  /// Who published the message that `Next` gave last.
+  const ros1::Connection& connection() const { return index_.connections.at(connection_); }
+
  private:
   /// A chunk of which messages are still to come.
   struct OpenChunk {
@@ -59,11 +62,13 @@ class Ros1BagReader : public RawMessageReader {
   void MakeRoom(std::size_t chunk);
   bool Take(OpenChunks::value_type* open, RawMessage* message);
 
-  ros1::BagFile file_;
+  RandomAccessFile file_;
   ros1::DamageLog log_;
   ros1::BagIndex index_;
   /// By topic.
   std::vector<bool> selected_;
+  /// Of the last message.
+  std::uint32_t connection_ = 0;
   ros1::ChunkReader reader_;
   /// The chunk that was read last; the memory of chunks that are done with returns here.
   ros1::Chunk read_;

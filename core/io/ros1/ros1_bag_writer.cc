@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "core/io/errors.h"
-#include "core/io/ros1/bag_record.h"
 
 namespace trajlo {
 namespace {
@@ -43,11 +42,8 @@ std::string Header(Op op, std::string_view fields) {
 }
 
 std::string ConnectionRecord(std::uint32_t id, const std::string& topic,
-                             const MessageDescription& description) {
-  return Header(Op::kConnection, Field("conn", Bytes(id)) + Field("topic", topic)) +
-         Block(Field("topic", topic) + Field("type", description.type) +
-               Field("md5sum", description.md5sum) +
-               Field("message_definition", description.definition));
+                             const std::string& header) {
+  return Header(Op::kConnection, Field("conn", Bytes(id)) + Field("topic", topic)) + Block(header);
 }
 
 /// Overwrites the begin of a file that is complete otherwise.
@@ -69,6 +65,20 @@ Ros1BagWriter::Ros1BagWriter(const std::filesystem::path& path, const Ros1BagOpt
 
 void Ros1BagWriter::Write(const std::string& topic, const MessageDescription& description,
                           std::int64_t recorded_ns, std::string_view message) {
+  Write(topic,
+        Field("topic", topic) + Field("type", description.type) +
+            Field("md5sum", description.md5sum) +
+            Field("message_definition", description.definition),
+        recorded_ns, message);
+}
+
+void Ros1BagWriter::Write(const ros1::Connection& publisher, std::int64_t recorded_ns,
+                          std::string_view message) {
+  Write(publisher.topic, publisher.header, recorded_ns, message);
+}
+
+void Ros1BagWriter::Write(const std::string& topic, const std::string& header,
+                          std::int64_t recorded_ns, std::string_view message) {
   if (!file_) throw OutputError(path_, "writing after Close");
   constexpr std::int64_t kEndOfTime_ns = (std::int64_t{1} << 32U) * 1'000'000'000;
   if (recorded_ns < 0 || recorded_ns >= kEndOfTime_ns) {
@@ -78,7 +88,7 @@ void Ros1BagWriter::Write(const std::string& topic, const MessageDescription& de
     throw OutputError(path_,
                       "a message of " + std::to_string(message.size()) + " bytes is too long");
   }
-  const std::uint32_t connection = ConnectionOf(topic, description);
+  const std::uint32_t connection = ConnectionOf(topic, header);
   const bool first = chunk_index_.empty();
   chunk_start_ns_ = first ? recorded_ns : std::min(chunk_start_ns_, recorded_ns);
   chunk_end_ns_ = first ? recorded_ns : std::max(chunk_end_ns_, recorded_ns);
@@ -104,12 +114,11 @@ void Ros1BagWriter::Close() {
   file_.reset();
 }
 
-std::uint32_t Ros1BagWriter::ConnectionOf(const std::string& topic,
-                                          const MessageDescription& description) {
+std::uint32_t Ros1BagWriter::ConnectionOf(const std::string& topic, const std::string& header) {
   const auto id = static_cast<std::uint32_t>(connections_.size());
-  const auto [place, is_new] = connections_.try_emplace({topic, description.type}, id);
+  const auto [place, is_new] = connections_.try_emplace({topic, header}, id);
   if (is_new) {
-    const std::string record = ConnectionRecord(id, topic, description);
+    const std::string record = ConnectionRecord(id, topic, header);
     connection_records_ += record;
     chunk_ += record;
   }

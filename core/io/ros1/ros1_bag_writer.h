@@ -12,6 +12,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/messages/message_writer.h"
+#include "core/io/ros1/bag_record.h"
 #include "core/io/ros1/chunk_codec.h"
 
 namespace trajlo {
@@ -36,10 +37,16 @@ class Ros1BagWriter {
   /// year 2106, as the format demands, and need not increase.
   void Write(const std::string& topic, const MessageDescription& description,
              std::int64_t recorded_ns, std::string_view message);
+  /// The same for a message of another bag, whose publisher keeps all that is known of it but its
+  /// id. Publishers that differ in nothing else become one.
+  void Write(const ros1::Connection& publisher, std::int64_t recorded_ns, std::string_view message);
   void Close();
 
  private:
-  std::uint32_t ConnectionOf(const std::string& topic, const MessageDescription& description);
+  /// `header` as that of ros1::Connection.
+  void Write(const std::string& topic, const std::string& header, std::int64_t recorded_ns,
+             std::string_view message);
+  std::uint32_t ConnectionOf(const std::string& topic, const std::string& header);
   void FinishChunk();
   void Append(std::string_view bytes);
   std::string FileHeader(std::uint64_t index_pos) const;
@@ -48,6 +55,7 @@ class Ros1BagWriter {
   Ros1BagOptions options_;
   std::optional<AtomicFile> file_;
   std::uint64_t file_bytes_ = 0;
+  /// By topic and header.
   std::map<std::pair<std::string, std::string>, std::uint32_t> connections_;
   /// What the index at the end will consist of.
   std::string connection_records_;

@@ -24,11 +24,11 @@ struct Summary {
   std::uint64_t start = 0;
 };
 
-std::optional<Summary> ReadSummary(const InputFile& file) {
+std::optional<Summary> ReadSummary(const RandomAccessFile& file) {
   const std::uint64_t tail = kFooterBytes + kMcapMagic.size();
   if (file.size() < tail + kMcapMagic.size()) return {};
   const std::uint64_t footer_start = file.size() - tail;
-  const FileBytes end = file.ReadAt(footer_start, static_cast<std::size_t>(tail));
+  const FileBytes end = file.Read(footer_start, static_cast<std::size_t>(tail));
   std::string_view rest = end.view();
   const auto record = TakeMcapRecord(&rest);
   if (!record || record->opcode != McapOpcode::kFooter || rest != kMcapMagic) return {};
@@ -40,8 +40,8 @@ std::optional<Summary> ReadSummary(const InputFile& file) {
   }
   Summary summary;
   summary.start = footer->summary_start;
-  summary.bytes = file.ReadAt(
-      summary.start, static_cast<std::size_t>(footer_start + kFooterBytes - summary.start));
+  summary.bytes = file.Read(summary.start,
+                            static_cast<std::size_t>(footer_start + kFooterBytes - summary.start));
   if (summary.bytes.size() != footer_start + kFooterBytes - summary.start) return {};
   const auto* begin = reinterpret_cast<const Bytef*>(summary.bytes.data());
   if (footer->summary_crc != 0 &&
@@ -51,7 +51,7 @@ std::optional<Summary> ReadSummary(const InputFile& file) {
   return summary;
 }
 
-std::optional<McapIndex> IndexFromSummary(const InputFile& file) {
+std::optional<McapIndex> IndexFromSummary(const RandomAccessFile& file) {
   const auto summary = ReadSummary(file);
   if (!summary) return {};
   McapIndex index;
@@ -107,7 +107,7 @@ const std::size_t* McapTopics::Find(std::uint16_t channel) const {
   return found == topic_of_channel_.end() ? nullptr : &found->second;
 }
 
-McapIndex ReadMcapIndex(const std::shared_ptr<const InputFile>& file,
+McapIndex ReadMcapIndex(const std::shared_ptr<const RandomAccessFile>& file,
                         const std::filesystem::path& path) {
   if (auto index = IndexFromSummary(*file)) return *std::move(index);
   McapIndex index;

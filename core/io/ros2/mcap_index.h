@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/io/messages/raw_message.h"
-#include "core/io/ros2/input_file.h"
+#include "core/io/random_access_file.h"
 #include "core/io/ros2/mcap_records.h"
 
 namespace trajlo {
@@ -41,7 +41,7 @@ struct McapIndex {
 
 /// From the summary at the end of the file. Where there is none, or it is broken or does not count
 /// the messages of every channel, by reading the whole file once.
-McapIndex ReadMcapIndex(const std::shared_ptr<const InputFile>& file,
+McapIndex ReadMcapIndex(const std::shared_ptr<const RandomAccessFile>& file,
                         const std::filesystem::path& path);
 
 }  // namespace trajlo

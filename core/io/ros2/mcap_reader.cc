@@ -11,10 +11,10 @@
 namespace trajlo {
 namespace {
 
-std::shared_ptr<const InputFile> OpenMcap(const std::filesystem::path& path,
-                                          const std::filesystem::path& shown) {
-  auto file = std::make_shared<const InputFile>(path);
-  if (file->ReadAt(0, kMcapMagic.size()).view() != kMcapMagic) {
+std::shared_ptr<const RandomAccessFile> OpenMcap(const std::filesystem::path& path,
+                                                 const std::filesystem::path& shown) {
+  auto file = std::make_shared<const RandomAccessFile>(path);
+  if (file->Read(0, kMcapMagic.size()).view() != kMcapMagic) {
     throw InputError(shown, "this is no MCAP file: it does not begin with the format's mark",
                      "Give a file that ends with .mcap, or a bag of another kind.");
   }

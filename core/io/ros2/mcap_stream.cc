@@ -30,7 +30,7 @@ bool IsCrcRight(std::string_view bytes, std::uint32_t crc) {
 
 }  // namespace
 
-McapStream::McapStream(std::shared_ptr<const InputFile> file, std::filesystem::path path,
+McapStream::McapStream(std::shared_ptr<const RandomAccessFile> file, std::filesystem::path path,
                        std::vector<std::uint64_t> chunk_offsets, MessageReport* report)
     : file_(std::move(file)),
       path_(std::move(path)),
@@ -66,7 +66,7 @@ bool McapStream::NextInChunk(McapRecord* record) {
 }
 
 McapStream::Outcome McapStream::NextInFile(McapRecord* record) {
-  const FileBytes bytes = file_->ReadAt(at_, kMcapPrefixBytes);
+  const FileBytes bytes = file_->Read(at_, kMcapPrefixBytes);
   if (bytes.size() < kMcapPrefixBytes) return HandleCut({});
   WireReader prefix(bytes.view(), Encoding::kRos1);
   const auto opcode = static_cast<McapOpcode>(prefix.Read<std::uint8_t>());
@@ -81,7 +81,7 @@ McapStream::Outcome McapStream::NextInFile(McapRecord* record) {
     return Outcome::kNothing;
   }
   FileBytes content =
-      file_->ReadAt(record_offset + kMcapPrefixBytes, static_cast<std::size_t>(length));
+      file_->Read(record_offset + kMcapPrefixBytes, static_cast<std::size_t>(length));
   if (content.size() < length) {
     Lose(record_offset, length, "reading failed");
     return Outcome::kNothing;
@@ -142,7 +142,7 @@ McapStream::Outcome McapStream::HandleCut(McapOpcode opcode) {
   }
   at_ = file_->size();
   if (opcode == McapOpcode::kChunk && at_ - offset < kLargestRecord) {
-    OpenChunk(offset, file_->ReadAt(offset + kMcapPrefixBytes, at_ - offset - kMcapPrefixBytes),
+    OpenChunk(offset, file_->Read(offset + kMcapPrefixBytes, at_ - offset - kMcapPrefixBytes),
               true);
     return Outcome::kNothing;
   }

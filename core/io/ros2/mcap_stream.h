@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/io/messages/raw_message.h"
-#include "core/io/ros2/input_file.h"
+#include "core/io/random_access_file.h"
 #include "core/io/ros2/mcap_records.h"
 
 namespace trajlo {
@@ -24,7 +24,7 @@ class McapStream {
  public:
   /// What is lost is added to `report`, in sentences that begin with `path`. `chunk_offsets`,
   /// sorted, may be empty.
-  McapStream(std::shared_ptr<const InputFile> file, std::filesystem::path path,
+  McapStream(std::shared_ptr<const RandomAccessFile> file, std::filesystem::path path,
              std::vector<std::uint64_t> chunk_offsets, MessageReport* report);
 
   /// The next Schema, Channel or Message, valid until the next call; false at the end.
@@ -40,7 +40,7 @@ class McapStream {
   Outcome HandleCut(McapOpcode opcode);
   void Lose(std::uint64_t offset, std::uint64_t bytes, const std::string& what);
 
-  std::shared_ptr<const InputFile> file_;
+  std::shared_ptr<const RandomAccessFile> file_;
   std::filesystem::path path_;
   std::vector<std::uint64_t> chunk_offsets_;
   /// Where the next record begins in the file.

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "core/io/errors.h"
+#include "core/io/random_access_file.h"
 #include "core/io/ros2/cut_file_vfs.h"
-#include "core/io/ros2/input_file.h"
 
 namespace trajlo {
 namespace {
@@ -38,8 +38,8 @@ bool HasUnfinishedWrites(const std::filesystem::path& path) {
 }  // namespace
 
 SqliteFile::SqliteFile(const std::filesystem::path& path, const std::filesystem::path& shown) {
-  const InputFile file(path);
-  const FileBytes header = file.ReadAt(0, kHeaderBytes);
+  const RandomAccessFile file(path);
+  const FileBytes header = file.Read(0, kHeaderBytes);
   if (header.view().substr(0, kMark.size()) != kMark || header.size() < kHeaderBytes) {
     throw InputError(shown, "this is no SQLite database: it does not begin with the format's mark",
                      "Give a file that ends with .db3, or a bag of another kind.");

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "core/io/errors.h"
-#include "core/io/ros2/input_file.h"
+#include "core/io/random_access_file.h"
 #include "core/io/ros2/unpack.h"
 
 namespace trajlo {
@@ -52,7 +52,7 @@ TempFile::~TempFile() {
 }
 
 TempFile UnpackFile(const std::filesystem::path& path, std::string* problem) {
-  const InputFile file(path);
+  const RandomAccessFile file(path);
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   std::string name = (folder / "trajlo_XXXXXX").string();
   const Descriptor out{::mkstemp(name.data())};
@@ -64,7 +64,7 @@ TempFile UnpackFile(const std::filesystem::path& path, std::string* problem) {
   std::size_t result = 0;
   problem->clear();
   while (offset < file.size() && problem->empty()) {
-    const FileBytes piece = file.ReadAt(offset, kPiece);
+    const FileBytes piece = file.Read(offset, kPiece);
     if (piece.size() == 0) break;
     offset += piece.size();
     ZSTD_inBuffer from{piece.data(), piece.size(), 0};

@@ -98,6 +98,20 @@ TEST(Association, TheShorterTrajectoryIsWalkedSoAPoseOfTheLongerOneMayServeTwice
   EXPECT_EQ(pairs[1].index, 1u);
 }
 
+TEST(Association, OneToOneUsesNoPoseTwiceAndDropsADifferenceOfExactlyTheTolerance) {
+  PoseAssociationOptions options;
+  options.rule = AssociationRule::kOneToOne;
+  options.max_time_difference_s = 0.25;
+  // 4.9 is nearest to 5.0, but 5.05 is closer to it; 9.0 is as far away as the tolerance.
+  const std::vector<PosePair> pairs =
+      Associate(At({-0.1, 3.9, 4.05, 7.75}), At({0.1, 5.0, 9.0}), Nanoseconds(1.0), options);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].index, 2u);
+  EXPECT_EQ(pairs[0].t_ns, Nanoseconds(5.05));
+  EXPECT_EQ(pairs[0].estimate.translation().x(), 3.0);
+  EXPECT_EQ(pairs[0].truth.translation().x(), 2.0);
+}
+
 TEST(Association, TheOffsetIsAddedToTheEstimate) {
   const std::vector<PosePair> pairs =
       Associate(At({0.0, 0.02}), At({100.0, 100.02}), Nanoseconds(100.0), Nearest10ms());
@@ -121,6 +135,10 @@ TEST(Association, NoPairIsExplainedByTheTimeSpans) {
                                       HasSubstr("--time_offset_s=45.000")));
   EXPECT_THAT(ErrorOf(At({5.0, 6.0}), At({1.6e9, 1.6e9 + 1}), {}), HasSubstr("same instant"));
   EXPECT_THAT(ErrorOf(At({5.0, 6.0}), At({4.5, 5.5}), Nearest10ms()),
+              HasSubstr("--max_time_difference_s"));
+  PoseAssociationOptions one_to_one;
+  one_to_one.rule = AssociationRule::kOneToOne;
+  EXPECT_THAT(ErrorOf(At({5.0, 6.0}), At({4.5, 5.5}), one_to_one),
               HasSubstr("--max_time_difference_s"));
   EXPECT_THAT(ErrorOf(At({5.0}), At({4.99, 5.1, 5.11, 5.12}), {}), HasSubstr("--max_gap_s"));
 }

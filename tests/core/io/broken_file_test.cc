@@ -12,13 +12,13 @@
 namespace trajlo {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class CutFile : public testing::TestWithParam<const char*> {};
+class CutFile : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(CutFile, GivesAPrefixOfItsPointsOrAnErrorAtEveryByte) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture(GetParam()));
+  const std::string whole = testing::ReadFile(Fixture(GetParam()));
   const std::string name = "cut" + std::filesystem::path(GetParam()).extension().string();
   const bool compressed = std::string(GetParam()).find("compressed") != std::string::npos;
   std::size_t previous = 0;
@@ -49,11 +49,11 @@ TEST_P(CutFile, GivesAPrefixOfItsPointsOrAnErrorAtEveryByte) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fixtures, CutFile,
-                         testing::Values("pypcd4_ascii.pcd", "pypcd4_binary.pcd",
-                                         "pypcd4_compressed.pcd", "numpy_padded.pcd",
-                                         "plyfile_ascii.ply", "plyfile_little.ply",
-                                         "plyfile_big.ply", "plyfile_lists_ascii.ply",
-                                         "plyfile_lists_little.ply", "numpy_kitti.bin"),
+                         ::testing::Values("pypcd4_ascii.pcd", "pypcd4_binary.pcd",
+                                           "pypcd4_compressed.pcd", "numpy_padded.pcd",
+                                           "plyfile_ascii.ply", "plyfile_little.ply",
+                                           "plyfile_big.ply", "plyfile_lists_ascii.ply",
+                                           "plyfile_lists_little.ply", "numpy_kitti.bin"),
                          [](const auto& param) {
                            std::string name = param.param;
                            for (char& c : name) c = c == '.' ? '_' : c;
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Fixtures, CutFile,
 
 TEST(BrokenFile, ATruncatedBinaryPcdSaysWhatIsMissing) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture("pypcd4_binary.pcd"));
+  const std::string whole = testing::ReadFile(Fixture("pypcd4_binary.pcd"));
   const PointTable table = ReadPointFile(folder.Write("a.pcd", whole.substr(0, whole.size() - 30)));
   EXPECT_EQ(table.count, 38U);
   EXPECT_THAT(table.damage, HasSubstr("POINTS 40 of 20 bytes declared, 770 bytes (38 points)"));
@@ -70,7 +70,7 @@ TEST(BrokenFile, ATruncatedBinaryPcdSaysWhatIsMissing) {
 
 TEST(BrokenFile, ATruncatedPlySaysWhatIsMissing) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture("plyfile_little.ply"));
+  const std::string whole = testing::ReadFile(Fixture("plyfile_little.ply"));
   const PointTable table = ReadPointFile(folder.Write("a.ply", whole.substr(0, whole.size() - 1)));
   EXPECT_EQ(table.count, 39U);
   EXPECT_THAT(table.damage, HasSubstr("40 vertices declared, 39 whole ones"));
@@ -78,7 +78,7 @@ TEST(BrokenFile, ATruncatedPlySaysWhatIsMissing) {
 
 TEST(BrokenFile, ATruncatedKittiBinSaysHowMuchIsLeftOver) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture("numpy_kitti.bin"));
+  const std::string whole = testing::ReadFile(Fixture("numpy_kitti.bin"));
   const PointTable table = ReadPointFile(folder.Write("a.bin", whole.substr(0, whole.size() - 5)));
   EXPECT_EQ(table.count, 39U);
   EXPECT_THAT(table.damage, HasSubstr("a rest of 11"));

@@ -13,11 +13,11 @@ namespace {
 
 constexpr int kRounds = 3000;
 
-class FlippedFile : public testing::TestWithParam<const char*> {};
+class FlippedFile : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(FlippedFile, NeverCrashesTheReader) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture(GetParam()));
+  const std::string whole = testing::ReadFile(Fixture(GetParam()));
   const auto file =
       folder.path() / ("flipped" + std::filesystem::path(GetParam()).extension().string());
   std::mt19937 random(20240607);
@@ -64,13 +64,13 @@ TEST_P(FlippedFile, NeverCrashesTheReader) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fixtures, FlippedFile,
-                         testing::Values("pypcd4_ascii.pcd", "pypcd4_binary.pcd",
-                                         "pypcd4_compressed.pcd", "pypcd4_ouster_compressed.pcd",
-                                         "pypcd4_absolute_binary.pcd", "numpy_padded.pcd",
-                                         "plyfile_ascii.ply", "plyfile_little.ply",
-                                         "plyfile_big.ply", "plyfile_lists_ascii.ply",
-                                         "plyfile_lists_little.ply", "struct_lists_big.ply",
-                                         "numpy_kitti.bin"),
+                         ::testing::Values("pypcd4_ascii.pcd", "pypcd4_binary.pcd",
+                                           "pypcd4_compressed.pcd", "pypcd4_ouster_compressed.pcd",
+                                           "pypcd4_absolute_binary.pcd", "numpy_padded.pcd",
+                                           "plyfile_ascii.ply", "plyfile_little.ply",
+                                           "plyfile_big.ply", "plyfile_lists_ascii.ply",
+                                           "plyfile_lists_little.ply", "struct_lists_big.ply",
+                                           "numpy_kitti.bin"),
                          [](const auto& param) {
                            std::string name = param.param;
                            for (char& c : name) c = c == '.' ? '_' : c;

@@ -1,52 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "core/io/point_table.h"
+#include "tests/support/temp_folder.h"
 
 namespace trajlo {
 
-/// A folder of its own for each test; removed at the end.
-class TempFolder {
+/// One that files are written into in one line.
+class TempFolder : public testing::TempFolder {
  public:
-  TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "trajlo_io_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TempFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
   /// Writes a file, with the folders on the way to it.
   std::filesystem::path Write(const std::string& name, const std::string& bytes) const {
-    const std::filesystem::path file = path_ / name;
+    const std::filesystem::path file = path() / name;
     std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << bytes;
+    testing::WriteFile(file, bytes);
     return file;
   }
-
- private:
-  std::filesystem::path path_;
 };
-
-inline std::string ReadBytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 inline std::filesystem::path Fixture(const std::string& name) {
   return std::filesystem::path(TRAJLO_TEST_DIR) / "fixtures" / name;

@@ -12,7 +12,7 @@
 namespace trajlo {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// What a fixture holds besides x, y and z, which are the same in all.
 struct Foreign {
@@ -25,7 +25,7 @@ struct Foreign {
 
 void PrintTo(const Foreign& file, std::ostream* out) { *out << file.file; }
 
-class ForeignFile : public testing::TestWithParam<Foreign> {};
+class ForeignFile : public ::testing::TestWithParam<Foreign> {};
 
 TEST_P(ForeignFile, IsReadToTheLastNumber) {
   const Foreign& file = GetParam();
@@ -59,7 +59,7 @@ TEST_P(ForeignFile, IsReadToTheLastNumber) {
 
 INSTANTIATE_TEST_SUITE_P(
     Fixtures, ForeignFile,
-    testing::Values(
+    ::testing::Values(
         Foreign{"pypcd4_ascii.pcd", "intensity", "time", 0, 0.0025, 1e-8},
         Foreign{"pypcd4_binary.pcd", "intensity", "time", 0, 0.0025, 1e-8},
         Foreign{"pypcd4_compressed.pcd", "intensity", "time", 0, 0.0025, 1e-8},

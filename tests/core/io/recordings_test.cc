@@ -18,7 +18,7 @@ struct Recording {
 
 void PrintTo(const Recording& recording, std::ostream* out) { *out << recording.folder; }
 
-class RealRecording : public testing::TestWithParam<Recording> {};
+class RealRecording : public ::testing::TestWithParam<Recording> {};
 
 TEST_P(RealRecording, IsUnderstoodWithoutOptions) {
   const Recording& expected = GetParam();
@@ -52,11 +52,11 @@ TEST_P(RealRecording, IsUnderstoodWithoutOptions) {
 
 INSTANTIATE_TEST_SUITE_P(
     Folders, RealRecording,
-    testing::Values(Recording{"kitti_raw_0005", 24, true, 1317042000000000000, 0.1036},
-                    Recording{"hdl32e_cart", 12, true, 1500000000100085735, 0.1001},
-                    Recording{"vlp16_static", 14, true, 1584002666163101196, 0.1},
-                    Recording{"newer_college_06", 3, true, 0, 0.1006},
-                    Recording{"kitti_bin", 4, false, 0, 0.0}),
+    ::testing::Values(Recording{"kitti_raw_0005", 24, true, 1317042000000000000, 0.1036},
+                      Recording{"hdl32e_cart", 12, true, 1500000000100085735, 0.1001},
+                      Recording{"vlp16_static", 14, true, 1584002666163101196, 0.1},
+                      Recording{"newer_college_06", 3, true, 0, 0.1006},
+                      Recording{"kitti_bin", 4, false, 0, 0.0}),
     [](const auto& param) { return std::string(param.param.folder); });
 
 }  // namespace

@@ -11,16 +11,17 @@
 namespace trajlo {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// Five copies of a fixture, 0.1 s apart.
 void WriteRecording(const TempFolder& folder, const std::string& fixture, bool stamps) {
   const std::string extension = std::filesystem::path(fixture).extension().string();
   std::string times;
   for (int k = 0; k < 5; ++k) {
-    folder.Write("scans/00000" + std::to_string(k) + extension, ReadBytes(Fixture(fixture)));
+    folder.Write("scans/00000" + std::to_string(k) + extension,
+                 testing::ReadFile(Fixture(fixture)));
     times += "1600000000." + std::to_string(k) + "\n";
   }
   if (stamps) folder.Write("timestamps.txt", times);
@@ -32,7 +33,7 @@ std::vector<LidarScan> ReadAll(ScanFolder* recording) {
   return scans;
 }
 
-class EveryFormat : public testing::TestWithParam<std::tuple<const char*, bool>> {};
+class EveryFormat : public ::testing::TestWithParam<std::tuple<const char*, bool>> {};
 
 TEST_P(EveryFormat, GivesTheSameScans) {
   const TempFolder folder;
@@ -65,12 +66,12 @@ TEST_P(EveryFormat, GivesTheSameScans) {
 
 INSTANTIATE_TEST_SUITE_P(
     Fixtures, EveryFormat,
-    testing::Combine(testing::Values("pypcd4_ascii.pcd", "pypcd4_binary.pcd",
-                                     "pypcd4_compressed.pcd", "pypcd4_ouster_binary.pcd",
-                                     "open3d_compressed.pcd", "numpy_padded.pcd",
-                                     "plyfile_ascii.ply", "plyfile_little.ply", "plyfile_big.ply",
-                                     "struct_lists_big.ply"),
-                     testing::Bool()),
+    ::testing::Combine(::testing::Values("pypcd4_ascii.pcd", "pypcd4_binary.pcd",
+                                         "pypcd4_compressed.pcd", "pypcd4_ouster_binary.pcd",
+                                         "open3d_compressed.pcd", "numpy_padded.pcd",
+                                         "plyfile_ascii.ply", "plyfile_little.ply",
+                                         "plyfile_big.ply", "struct_lists_big.ply"),
+                       ::testing::Bool()),
     [](const auto& param) {
       std::string name = std::get<0>(param.param);
       for (char& c : name) c = c == '.' ? '_' : c;
@@ -143,7 +144,7 @@ TEST(ScanFolder, ANamedTimeFieldThatIsMissingIsAnErrorThatListsTheFields) {
 TEST(ScanFolder, DamagedScansAreHandedOnInPartAndUnreadableOnesAreSkipped) {
   const TempFolder folder;
   WriteRecording(folder, "pypcd4_binary.pcd", true);
-  const std::string whole = ReadBytes(Fixture("pypcd4_binary.pcd"));
+  const std::string whole = testing::ReadFile(Fixture("pypcd4_binary.pcd"));
   folder.Write("scans/000000.pcd", "");
   folder.Write("scans/000001.pcd", whole.substr(0, whole.size() - 1));
   folder.Write("scans/000004.pcd", whole.substr(0, 50));

@@ -10,9 +10,9 @@
 namespace trajlo {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
@@ -86,7 +86,7 @@ TEST(StampsFile, ALineThatIsNoStampIsNamed) {
   }
 }
 
-class StampSearch : public testing::Test {
+class StampSearch : public ::testing::Test {
  protected:
   ScanStamps Find(const std::filesystem::path& stamps_file = {}) {
     listing_ = ListScans(folder_.path());

@@ -192,16 +192,6 @@ TEST(TimeConvention, ANegativeTimeWithAStampAtTheStartIsMovedForward) {
   EXPECT_EQ(found.ZeroAfterStampNs(), 100'000'000);
 }
 
-TEST(TimeConvention, ItsWordsAreParsed) {
-  EXPECT_EQ(ParseTimeUnit("us"), TimeUnit::kMicroseconds);
-  EXPECT_EQ(ParseTimeUnit("auto"), TimeUnit::kAuto);
-  EXPECT_EQ(ParseTimeUnit("hours"), std::nullopt);
-  EXPECT_EQ(ParseTimeOrigin("absolute"), TimeOrigin::kAbsolute);
-  EXPECT_EQ(ParseTimeOrigin(""), std::nullopt);
-  EXPECT_EQ(ParseStampAt("end"), StampAt::kEnd);
-  EXPECT_EQ(ParseStampAt("middle"), std::nullopt);
-}
-
 /// A table of doubles with the columns x, y, z, t.
 PointTable TableOf(const std::vector<std::array<double, 4>>& rows) {
   PointTable table;

@@ -9,11 +9,11 @@
 namespace trajlo {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
-class TrajectoryFileTest : public testing::Test {
+class TrajectoryFileTest : public ::testing::Test {
  protected:
   TrajectoryFile Read(const std::string& text, TrajectoryFormat format = TrajectoryFormat::kAuto) {
     warnings_.clear();
@@ -86,7 +86,7 @@ TEST_F(TrajectoryFileTest, ManyWarningsAreCondensed) {
 }
 
 TEST_F(TrajectoryFileTest, MessagesSayWhatWasFoundAndWhatIsWanted) {
-  EXPECT_THAT(ErrorOf("1 2 3\n"), testing::AllOf(HasSubstr("3 columns"), HasSubstr("TUM")));
+  EXPECT_THAT(ErrorOf("1 2 3\n"), ::testing::AllOf(HasSubstr("3 columns"), HasSubstr("TUM")));
   EXPECT_THAT(ErrorOf("0 1 0 0 4 0 1 0 5 0 0 1 6\n"), HasSubstr("13 columns"));
   EXPECT_THAT(ErrorOf("1005802000000 0 0 0 0 0 0 1\n"), HasSubstr("ns, us or ms"));
   EXPECT_THAT(ErrorOf("1.5,1,2,3,1,0,0,0\n"), HasSubstr("nanoseconds"));

@@ -15,8 +15,8 @@
 namespace trajlo {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const SE3 kPose(Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5), Eigen::Vector3d(1.25, -2.5, 1e-10));
 
@@ -28,7 +28,7 @@ TEST(TumWriter, PrintsStampsExactlyAndNineDecimals) {
   writer.Append(1600000000123456789, kPose);
   writer.Append(-1, SE3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-1e-12, 1e6, 0.1)));
   writer.Close();
-  EXPECT_EQ(ReadBytes(folder.path() / "a.tum"),
+  EXPECT_EQ(testing::ReadFile(folder.path() / "a.tum"),
             "1600000000.123456789 1.250000000 -2.500000000 0.000000000 "
             "-0.500000000 0.500000000 0.500000000 0.500000000\n"
             "-0.000000001 0.000000000 1000000.000000000 0.100000000 "
@@ -68,7 +68,7 @@ TEST(TumWriter, NumbersDoNotFollowTheLocale) {
   TumWriter writer(folder.path() / "a.tum");
   writer.Append(0, kPose);
   std::setlocale(LC_ALL, before.c_str());
-  EXPECT_THAT(ReadBytes(folder.path() / "a.tum"), HasSubstr("1.250000000"));
+  EXPECT_THAT(testing::ReadFile(folder.path() / "a.tum"), HasSubstr("1.250000000"));
 }
 
 TEST(TumWriter, AFullDiskIsAnErrorAtTheWrite) {
@@ -81,7 +81,7 @@ TEST(TumWriter, AnEarlierResultIsNotReplacedUnlessToldSo) {
   const TempFolder folder;
   const auto file = folder.Write("a.tum", "precious\n");
   EXPECT_THROW(TumWriter writer(file), OutputError);
-  EXPECT_EQ(ReadBytes(file), "precious\n");
+  EXPECT_EQ(testing::ReadFile(file), "precious\n");
   TumWriter writer(file, IfExists::kReplace);
   writer.Append(0, kPose);
   EXPECT_EQ(ReadTum(file).size(), 1U);
@@ -144,7 +144,7 @@ TEST(ReadTum, AWrongNumberOfColumnsOrTextIsAnErrorThatNamesTheLine) {
   }
 }
 
-class CloudWriter : public testing::TestWithParam<std::tuple<const char*, CloudFields>> {};
+class CloudWriter : public ::testing::TestWithParam<std::tuple<const char*, CloudFields>> {};
 
 TEST_P(CloudWriter, WhatItWritesReadsBackToTheLastBit) {
   const TempFolder folder;
@@ -171,9 +171,9 @@ TEST_P(CloudWriter, WhatItWritesReadsBackToTheLastBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, CloudWriter,
-                         testing::Combine(testing::Values("map.pcd", "map.ply"),
-                                          testing::Values(CloudFields::kXyz,
-                                                          CloudFields::kXyzIntensity)));
+                         ::testing::Combine(::testing::Values("map.pcd", "map.ply"),
+                                            ::testing::Values(CloudFields::kXyz,
+                                                              CloudFields::kXyzIntensity)));
 
 TEST(PointCloudWriter, AnEmptyCloudIsAFileToo) {
   const TempFolder folder;
@@ -207,16 +207,16 @@ TEST(AtomicFile, AppearsOnlyWhenItIsCommitted) {
   AtomicFile file(path);
   file.Write("{}");
   file.Commit();
-  EXPECT_EQ(ReadBytes(path), "{}");
+  EXPECT_EQ(testing::ReadFile(path), "{}");
 }
 
 TEST(AtomicFile, KeepsTheOldFileUntilTheNewOneIsComplete) {
   const TempFolder folder;
   const auto path = folder.Write("a.txt", "old");
   EXPECT_THROW(WriteTextFile(path, "new"), OutputError);
-  EXPECT_EQ(ReadBytes(path), "old");
+  EXPECT_EQ(testing::ReadFile(path), "old");
   WriteTextFile(path, "new", IfExists::kReplace);
-  EXPECT_EQ(ReadBytes(path), "new");
+  EXPECT_EQ(testing::ReadFile(path), "new");
 }
 
 TEST(AtomicFile, AFileMadeInTheMeantimeIsNotReplaced) {
@@ -225,7 +225,7 @@ TEST(AtomicFile, AFileMadeInTheMeantimeIsNotReplaced) {
   file.Write("mine");
   folder.Write("a.txt", "theirs");
   EXPECT_THROW(file.Commit(), OutputError);
-  EXPECT_EQ(ReadBytes(folder.path() / "a.txt"), "theirs");
+  EXPECT_EQ(testing::ReadFile(folder.path() / "a.txt"), "theirs");
 }
 
 TEST(AtomicFile, AFullDiskIsAnError) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/io/conversion/bag_copy.h"
-#include "core/io/conversion/bag_definitions.h"
 #include "core/io/conversion/extract_poses.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
@@ -131,6 +130,20 @@ std::vector<std::string> MessagesOf(const std::filesystem::path& path) {
   return all;
 }
 
+/// In the order of their first messages.
+std::vector<ros1::Connection> PublishersOf(const std::filesystem::path& path) {
+  Ros1BagReader reader(path);
+  std::vector<ros1::Connection> publishers;
+  RawMessage message;
+  while (reader.Next(&message)) {
+    const bool known =
+        std::any_of(publishers.begin(), publishers.end(),
+                    [&](const ros1::Connection& one) { return one.id == reader.connection().id; });
+    if (!known) publishers.push_back(reader.connection());
+  }
+  return publishers;
+}
+
 TEST(CopyBags, CopiesEveryByteAndTheDefinitions) {
   const TempFolder folder;
   WriteBag(folder / "a.bag", CloudLayout::kOuster, false);
@@ -138,11 +151,49 @@ TEST(CopyBags, CopiesEveryByteAndTheDefinitions) {
   options.output.compression = BagCompression::kLz4;
   EXPECT_EQ(CopyBags({folder / "a.bag"}, folder / "b.bag", options).messages, 16u);
   EXPECT_EQ(MessagesOf(folder / "b.bag"), MessagesOf(folder / "a.bag"));
-  const auto definitions = ReadBagDefinitions(folder / "b.bag");
-  ASSERT_EQ(definitions.size(), 2u);
-  const auto& cloud = definitions.at({"/points", "sensor_msgs/PointCloud2"});
-  EXPECT_EQ(cloud.md5sum, DescriptionOf(CloudLayout::kOuster).md5sum);
-  EXPECT_EQ(cloud.definition, DescriptionOf(CloudLayout::kOuster).definition);
+  const std::vector<ros1::Connection> publishers = PublishersOf(folder / "b.bag");
+  ASSERT_EQ(publishers.size(), 2u);
+  EXPECT_EQ(publishers[0].topic, "/points");
+  EXPECT_EQ(publishers[0].type, "sensor_msgs/PointCloud2");
+  EXPECT_EQ(publishers[0].fields().Find("md5sum"), DescriptionOf(CloudLayout::kOuster).md5sum);
+  EXPECT_EQ(publishers[0].fields().Find("message_definition"),
+            DescriptionOf(CloudLayout::kOuster).definition);
+}
+
+/// The fields of a connection of std_msgs/String.
+std::string PublisherHeader(const std::string& callerid, const std::string& latching) {
+  std::string header;
+  for (const std::string& field :
+       {std::string("type=std_msgs/String"), std::string("md5sum=992ce8a1687cec8c8bd883ec73ca41d1"),
+        std::string("message_definition=string data\n"), "callerid=" + callerid,
+        "latching=" + latching}) {
+    const auto size = static_cast<char>(field.size());
+    header += std::string{size, '\0', '\0', '\0'} + field;
+  }
+  return header;
+}
+
+TEST(CopyBags, PublishersKeepTheirNamesAndAreLatchedAsTheyWere) {
+  const TempFolder folder;
+  const std::string latched = PublisherHeader("/map_server", "1");
+  const std::string plain = PublisherHeader("/talker", "0");
+  Ros1BagWriter writer(folder / "a.bag");
+  for (int i = 0; i < 4; ++i) {
+    writer.Write({0, "/said", "std_msgs/String", i % 2 == 0 ? latched : plain}, i,
+                 std::string(4, '\0'));
+  }
+  writer.Close();
+  // Two bags, as a recorder splits them: the same publisher is one in the copy.
+  std::filesystem::copy_file(folder / "a.bag", folder / "b.bag");
+  EXPECT_EQ(CopyBags({folder / "a.bag", folder / "b.bag"}, folder / "c.bag", {}).messages, 8u);
+  const std::vector<ros1::Connection> publishers = PublishersOf(folder / "c.bag");
+  ASSERT_EQ(publishers.size(), 2u);
+  EXPECT_EQ(publishers[0].header, latched);
+  EXPECT_EQ(publishers[0].fields().Find("callerid"), "/map_server");
+  EXPECT_EQ(publishers[0].fields().Find("latching"), "1");
+  EXPECT_EQ(publishers[1].header, plain);
+  // One topic all the same.
+  EXPECT_EQ(Ros1BagReader(folder / "c.bag").topics().size(), 1u);
 }
 
 TEST(CopyBags, TakesATopicAndATime) {
@@ -175,8 +226,7 @@ TEST(CopyBags, MendsABagWithoutItsEnd) {
   EXPECT_GT(copied.messages, 3u);
   Ros1BagReader mended(folder / "mended.bag");
   EXPECT_FALSE(mended.report().damaged);
-  const auto definitions = ReadBagDefinitions(folder / "mended.bag");
-  EXPECT_EQ(definitions.at({"/points", "sensor_msgs/PointCloud2"}).definition,
+  EXPECT_EQ(PublishersOf(folder / "mended.bag")[0].fields().Find("message_definition"),
             DescriptionOf(CloudLayout::kOuster).definition);
   std::vector<std::string> expected = MessagesOf(folder / "whole.bag");
   expected.resize(copied.messages);

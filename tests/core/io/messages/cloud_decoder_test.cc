@@ -11,7 +11,7 @@
 namespace trajlo {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr std::int64_t kStartNs = 1'600'000'000'000'000'000;
 constexpr char kCloud2[] = "sensor_msgs/PointCloud2";

@@ -18,7 +18,7 @@ constexpr std::int64_t kStartNs = 1'700'000'000'123'456'789;
 
 bool SameBits(float a, float b) { return std::memcmp(&a, &b, sizeof(float)) == 0; }
 
-class Written : public testing::TestWithParam<CloudLayout> {};
+class Written : public ::testing::TestWithParam<CloudLayout> {};
 
 TEST_P(Written, CloudsKeepPositionsAndIntensitiesToTheBitAndTimesToTheLayoutsLimit) {
   LidarScan scan = MakeScan(1000, kStartNs);
@@ -57,8 +57,8 @@ TEST_P(Written, CloudsWithoutPointsAreRead) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Layouts, Written,
-                         testing::Values(CloudLayout::kOuster, CloudLayout::kVelodyne,
-                                         CloudLayout::kLivox));
+                         ::testing::Values(CloudLayout::kOuster, CloudLayout::kVelodyne,
+                                           CloudLayout::kLivox));
 
 TEST(MessageWriter, ADriverMayStampTheEndOfTheSweep) {
   const LidarScan scan = MakeScan(10, kStartNs);

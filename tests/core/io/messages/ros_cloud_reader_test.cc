@@ -10,8 +10,8 @@
 namespace trajlo {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 constexpr std::int64_t kStartNs = 1'600'000'000'000'000'000;
 

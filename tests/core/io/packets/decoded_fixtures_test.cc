@@ -18,7 +18,7 @@ struct Expected {
 };
 
 std::vector<Expected> ReadExpected(const std::string& name) {
-  const std::string bytes = ReadBytes(Fixture(name + ".points"));
+  const std::string bytes = testing::ReadFile(Fixture(name + ".points"));
   std::vector<Expected> rows(bytes.size() / sizeof(Expected));
   std::memcpy(rows.data(), bytes.data(), rows.size() * sizeof(Expected));
   return rows;
@@ -47,7 +47,7 @@ void ExpectSame(const Sweeps& sweeps, const std::vector<Expected>& expected, dou
   }
 }
 
-class OusterProfile : public testing::TestWithParam<const char*> {};
+class OusterProfile : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(OusterProfile, GivesThePointsOfTheSensorMakersSdk) {
   const std::string name = std::string("ouster_") + GetParam();
@@ -60,12 +60,12 @@ TEST_P(OusterProfile, GivesThePointsOfTheSensorMakersSdk) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, OusterProfile,
-                         testing::Values("legacy", "rng19_rfl8_sig16_nir16",
-                                         "rng19_rfl8_sig16_nir16_dual", "rng15_rfl8_nir8",
-                                         "rng15_rfl8_nir8_dual", "fusa_rng15_rfl8_nir8_dual"),
+                         ::testing::Values("legacy", "rng19_rfl8_sig16_nir16",
+                                           "rng19_rfl8_sig16_nir16_dual", "rng15_rfl8_nir8",
+                                           "rng15_rfl8_nir8_dual", "fusa_rng15_rfl8_nir8_dual"),
                          [](const auto& param) { return std::string(param.param); });
 
-class VelodyneKindOfPacket : public testing::TestWithParam<const char*> {};
+class VelodyneKindOfPacket : public ::testing::TestWithParam<const char*> {};
 
 // The other decoder rounds azimuths to 0.01 degrees, times to float32 seconds, and computes the
 // VLP-16's heights anew, which the manual gives to 0.1 mm.
@@ -77,12 +77,12 @@ TEST_P(VelodyneKindOfPacket, GivesThePointsOfAnotherDecoder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, VelodyneKindOfPacket,
-                         testing::Values("vlp16_single", "vlp16_dual", "puck_hi_res_single",
-                                         "puck_hi_res_dual", "hdl32e_single", "hdl32e_dual",
-                                         "vlp32c_single", "vlp32c_dual"),
+                         ::testing::Values("vlp16_single", "vlp16_dual", "puck_hi_res_single",
+                                           "puck_hi_res_dual", "hdl32e_single", "hdl32e_dual",
+                                           "vlp32c_single", "vlp32c_dual"),
                          [](const auto& param) { return std::string(param.param); });
 
-class LinkLayer : public testing::TestWithParam<const char*> {};
+class LinkLayer : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LinkLayer, CarriesTheSamePacket) {
   const Sweeps plain = ReadSweeps(Fixture("link_ethernet.pcap"));
@@ -100,9 +100,9 @@ TEST_P(LinkLayer, CarriesTheSamePacket) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Links, LinkLayer,
-                         testing::Values("ethernet", "vlan", "double_vlan", "ipv6", "ip_options",
-                                         "fragments", "fragments_reversed", "fragments6", "sll",
-                                         "sll2", "raw", "nanoseconds", "pcapng"),
+                         ::testing::Values("ethernet", "vlan", "double_vlan", "ipv6", "ip_options",
+                                           "fragments", "fragments_reversed", "fragments6", "sll",
+                                           "sll2", "raw", "nanoseconds", "pcapng"),
                          [](const auto& param) { return std::string(param.param); });
 
 }  // namespace

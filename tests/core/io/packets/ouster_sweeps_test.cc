@@ -11,7 +11,7 @@ namespace trajlo {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr int kColumns = 512;
 constexpr int kColumnSize = 12 + 16 * 4;
@@ -20,7 +20,8 @@ constexpr std::int64_t kTurnNs = 100'000'000;
 
 /// The packet of the low-bandwidth profile that the sensor's maker wrote, moved to another place.
 std::string Packet(int frame_id, int packet, std::int64_t turn_ns = 0) {
-  static const std::string written = ReadBytes(Fixture("ouster_rng15_rfl8_nir8.pcap")).substr(82);
+  static const std::string written =
+      testing::ReadFile(Fixture("ouster_rng15_rfl8_nir8.pcap")).substr(82);
   std::string bytes = written;
   SetLittle(&bytes, 2, Little(static_cast<std::uint16_t>(frame_id)));
   for (int i = 0; i < 16; ++i) {
@@ -33,7 +34,7 @@ std::string Packet(int frame_id, int packet, std::int64_t turn_ns = 0) {
   return bytes;
 }
 
-std::string Metadata() { return ReadBytes(Fixture("ouster_rng15_rfl8_nir8.json")); }
+std::string Metadata() { return testing::ReadFile(Fixture("ouster_rng15_rfl8_nir8.json")); }
 
 /// Frames of 32 packets.
 PcapText Frames(const std::vector<int>& frame_ids) {
@@ -85,7 +86,7 @@ TEST(OusterSweeps, OfASensorWithoutClockGetThatOfTheCapture) {
   const auto file = folder.Write("run.pcap", Frames({1, 2}).bytes());
   const Sweeps joined = ReadSweeps(file);
   EXPECT_NEAR(static_cast<double>(*joined.sweeps[0].stamp_ns), 1e3 * kCapturedUs, 1e6);
-  EXPECT_THAT(joined.description, HasSubstr("counts from power-on"));
+  EXPECT_THAT(joined.topics[0].remark, HasSubstr("counts from power-on"));
   PacketOptions options;
   options.join_clocks = false;
   const Sweeps own = ReadSweeps(file, options);
@@ -167,14 +168,14 @@ TEST(OusterMetadata, IsFoundBesideTheCaptureByItsName) {
   const auto capture = folder.Write("drive_3_part.pcap", Frames({1}).bytes());
   EXPECT_THAT(WhatReadingThrows(capture), HasSubstr("drive_3_part.json is sought"));
   const auto only = folder.Write("sensor.json", Metadata());
-  EXPECT_THAT(FindOusterMetadata(capture), testing::ElementsAre(only));
+  EXPECT_THAT(FindOusterMetadata(capture), ::testing::ElementsAre(only));
   const auto drive = folder.Write("drive.json", Metadata());
-  EXPECT_THAT(FindOusterMetadata(capture), testing::ElementsAre(drive));
+  EXPECT_THAT(FindOusterMetadata(capture), ::testing::ElementsAre(drive));
   const auto drive3 = folder.Write("drive_3.json", Metadata());
-  EXPECT_THAT(FindOusterMetadata(capture), testing::ElementsAre(drive3));
+  EXPECT_THAT(FindOusterMetadata(capture), ::testing::ElementsAre(drive3));
   const auto left = folder.Write("drive_3_part_left.json", Metadata());
   const auto own = folder.Write("drive_3_part.json", Metadata());
-  EXPECT_THAT(FindOusterMetadata(capture), testing::ElementsAre(own, left));
+  EXPECT_THAT(FindOusterMetadata(capture), ::testing::ElementsAre(own, left));
   EXPECT_EQ(ReadSweeps(capture).sweeps.size(), 1U);
 }
 
@@ -226,7 +227,7 @@ TEST(OusterMetadata, ThatCannotBeUsedIsAnErrorThatNamesTheEntry) {
 
 TEST(OusterMetadata, OfEarlyFirmwareHasNoFormatAndMeansTheLegacyProfile) {
   const TempFolder folder;
-  json metadata = json::parse(ReadBytes(Fixture("ouster_legacy.json")));
+  json metadata = json::parse(testing::ReadFile(Fixture("ouster_legacy.json")));
   metadata.erase("data_format");
   const OusterMetadata early = ReadOusterMetadata(folder.Write("early.json", metadata.dump()));
   EXPECT_EQ(early.profile, "LEGACY");

@@ -12,7 +12,7 @@
 namespace trajlo {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A sensor that turns.
 std::string VelodyneCapture(int packets) {
@@ -88,9 +88,9 @@ TEST(PacketDamage, PacketsThatWereCapturedInPartAreCounted) {
 
 TEST(PacketDamage, MissingFragmentsAreCounted) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture("link_fragments.pcap"));
+  const std::string whole = testing::ReadFile(Fixture("link_fragments.pcap"));
   // Four records; the third is left out, and a whole packet is put before them.
-  std::string bytes = ReadBytes(Fixture("link_ethernet.pcap"));
+  std::string bytes = testing::ReadFile(Fixture("link_ethernet.pcap"));
   std::size_t at = 24;
   for (int i = 0; at < whole.size(); ++i) {
     std::uint32_t size = 0;
@@ -139,7 +139,7 @@ TEST(PacketDamage, WhatIsNoCaptureIsRefusedWithWhatWasFound) {
   EXPECT_THAT(refused(folder.Write("wifi.pcap", wifi)), HasSubstr("IEEE802_11"));
 }
 
-class FlippedCapture : public testing::TestWithParam<const char*> {};
+class FlippedCapture : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(FlippedCapture, NeverCrashesTheReader) {
   const TempFolder folder;
@@ -148,9 +148,10 @@ TEST_P(FlippedCapture, NeverCrashesTheReader) {
   if (name == "many") {
     whole = VelodyneCapture(30);
   } else {
-    whole = ReadBytes(Fixture(name));
+    whole = testing::ReadFile(Fixture(name));
     const auto metadata = std::filesystem::path(Fixture(name)).replace_extension(".json");
-    if (std::filesystem::exists(metadata)) folder.Write("flipped.json", ReadBytes(metadata));
+    if (std::filesystem::exists(metadata))
+      folder.Write("flipped.json", testing::ReadFile(metadata));
   }
   const auto file = folder.path() / "flipped.pcap";
   std::mt19937 random(20240608);
@@ -176,8 +177,8 @@ TEST_P(FlippedCapture, NeverCrashesTheReaderThroughItsMetadata) {
   const TempFolder folder;
   const auto metadata = std::filesystem::path(Fixture(GetParam())).replace_extension(".json");
   if (!std::filesystem::exists(metadata)) return;
-  const auto capture = folder.Write("run.pcap", ReadBytes(Fixture(GetParam())));
-  const std::string whole = ReadBytes(metadata);
+  const auto capture = folder.Write("run.pcap", testing::ReadFile(Fixture(GetParam())));
+  const std::string whole = testing::ReadFile(metadata);
   std::mt19937 random(20240609);
   for (int round = 0; round < 600; ++round) {
     std::string bytes = whole;
@@ -195,12 +196,12 @@ TEST_P(FlippedCapture, NeverCrashesTheReaderThroughItsMetadata) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Captures, FlippedCapture,
-                         testing::Values("many", "link_fragments.pcap", "link_fragments6.pcap",
-                                         "link_pcapng.pcap", "link_double_vlan.pcap",
-                                         "link_sll2.pcap", "velodyne_vlp16_dual.bin",
-                                         "velodyne_vlp32c_single.bin", "ouster_legacy.pcap",
-                                         "ouster_rng19_rfl8_sig16_nir16_dual.pcap",
-                                         "ouster_fusa_rng15_rfl8_nir8_dual.pcap"),
+                         ::testing::Values("many", "link_fragments.pcap", "link_fragments6.pcap",
+                                           "link_pcapng.pcap", "link_double_vlan.pcap",
+                                           "link_sll2.pcap", "velodyne_vlp16_dual.bin",
+                                           "velodyne_vlp32c_single.bin", "ouster_legacy.pcap",
+                                           "ouster_rng19_rfl8_sig16_nir16_dual.pcap",
+                                           "ouster_fusa_rng15_rfl8_nir8_dual.pcap"),
                          [](const auto& param) {
                            std::string name = param.param;
                            for (char& c : name) c = c == '.' ? '_' : c;

@@ -103,7 +103,6 @@ struct Sweeps {
   std::vector<Topic> topics;
   std::vector<CloudMessage> sweeps;
   MessageReport report;
-  std::string description;
 
   std::size_t points() const {
     std::size_t count = 0;
@@ -123,7 +122,6 @@ inline Sweeps ReadSweeps(const std::filesystem::path& path, const PacketOptions&
   all.topics = reader.topics();
   for (CloudMessage sweep; reader.Next(&sweep);) all.sweeps.push_back(std::move(sweep));
   all.report = reader.report();
-  all.description = reader.description();
   return all;
 }
 

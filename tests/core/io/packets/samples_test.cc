@@ -41,7 +41,7 @@ const Sample kSamples[] = {
       9393},
      2666163101304}};
 
-class SampleCapture : public testing::TestWithParam<Sample> {
+class SampleCapture : public ::testing::TestWithParam<Sample> {
  protected:
   void SetUp() override {
     file_ = DataDir() / "packets" / (std::string(GetParam().name) + GetParam().extension);
@@ -59,9 +59,9 @@ TEST_P(SampleCapture, IsReadWholeWithoutOptions) {
   EXPECT_TRUE(all.report.warnings.empty()) << all.Warnings();
   EXPECT_FALSE(all.report.damaged);
   EXPECT_EQ(all.topics[0].messages, sample.points.size());
-  EXPECT_NE(all.description.find(std::to_string(sample.datagrams) + " datagrams"),
+  EXPECT_NE(all.topics[0].remark.find(std::to_string(sample.datagrams) + " datagrams"),
             std::string::npos)
-      << all.description;
+      << all.topics[0].remark;
   ASSERT_EQ(all.sweeps.size(), sample.points.size());
   EXPECT_EQ(*all.sweeps[0].stamp_ns, sample.stamp_ns);
   for (std::size_t i = 0; i < all.sweeps.size(); ++i) {
@@ -122,7 +122,7 @@ TEST_P(SampleCapture, HasThePointsThatOtherDecodersSee) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Captures, SampleCapture, testing::ValuesIn(kSamples),
+INSTANTIATE_TEST_SUITE_P(Captures, SampleCapture, ::testing::ValuesIn(kSamples),
                          [](const auto& param) {
                            std::string name = param.param.name;
                            for (char& c : name) c = std::isalnum(c) != 0 ? c : '_';

@@ -10,7 +10,7 @@
 namespace trajlo {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 /// 2020-09-13 12:00:00 UTC.
@@ -131,7 +131,7 @@ TEST(VelodyneSweeps, GetTheHourOfTheCapture) {
   }
   const Sweeps all = ReadSweeps(folder.Write("hour.pcap", capture.bytes()));
   EXPECT_EQ(*all.sweeps[0].stamp_ns, (kNoonS - 3600 + 3584) * kSecondNs + 960'000'000);
-  EXPECT_THAT(all.description, HasSubstr("the hour is that of the capture"));
+  EXPECT_THAT(all.topics[0].remark, HasSubstr("the hour is that of the capture"));
 }
 
 TEST(VelodyneSweeps, GoOnWhenTheHourEnds) {
@@ -289,7 +289,7 @@ TEST(VelodyneSweeps, OfOtherModelsAreRefusedByName) {
   const auto unnamed = folder.Write("unnamed.bin", packet.Bytes());
   EXPECT_THAT(WhatReadingThrows(unnamed), HasSubstr("name it: VLP-16, Puck Hi-Res"));
   PacketOptions options;
-  options.velodyne_model = ParseVelodyneModel("HDL-32E");
+  options.velodyne_model = VelodyneModel::kHdl32e;
   EXPECT_EQ(ReadSweeps(unnamed, options).topics[0].type, "HDL-32E packets");
 }
 

@@ -4,14 +4,17 @@
 #include <gmock/gmock.h>
 
 #include "core/io/errors.h"
+#include "core/io/recording/open_clouds.h"
 #include "tests/support/room_recording.h"
 #include "tests/support/temp_folder.h"
 
 namespace trajlo {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using trajlo::testing::RoomRecording;
 using trajlo::testing::TempFolder;
 
@@ -53,6 +56,83 @@ TEST(OpenRecording, MergesLidarsByTheStampsOfTheirScans) {
   EXPECT_THAT(order, ElementsAre(Scan(0, 0), Scan(0, 100), Scan(1, 150), Scan(0, 200), Scan(1, 250),
                                  Scan(0, 300)));
   EXPECT_EQ(recording->report().scans_read, 6u);
+}
+
+TEST(LidarNames, AreTopicsOrFoldersInTheOrderOfTheIds) {
+  const TempFolder temp;
+  SmallRoom(1).Write(temp / "folder");
+  trajlo::testing::WriteFile(temp / "a.bag", "");
+  const std::string folder = temp / "folder", bag = temp / "a.bag";
+  RecordingOptions options;
+  EXPECT_THAT(LidarNames({folder, bag}, options), ElementsAre(folder, bag));
+  options.topics = {"/x", "/y"};
+  EXPECT_THAT(LidarNames({folder, bag}, options),
+              ElementsAre(folder, "/x of " + bag, "/y of " + bag));
+}
+
+/// A packet of a VLP-16 without a single return.
+std::string EmptyVelodynePacket(int index) {
+  std::string packet;
+  for (int block = 0; block < 12; ++block) {
+    const int azimuth_cdeg = (480 * index + 40 * block) % 36000;
+    packet += std::string("\xff\xee") + static_cast<char>(azimuth_cdeg & 0xff) +
+              static_cast<char>(azimuth_cdeg >> 8) + std::string(96, '\0');
+  }
+  const int time_us = 1327 * index;
+  for (int byte = 0; byte < 4; ++byte) packet += static_cast<char>(time_us >> 8 * byte);
+  return packet + "\x37\x22";
+}
+
+/// So many points in KITTI's format.
+std::string KittiScan(int points) {
+  std::string bytes;
+  for (int i = 0; i < 4 * points; ++i) {
+    const float number = 0.1F * static_cast<float>(i % 97);
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+  }
+  return bytes;
+}
+
+std::string ErrorOf(const std::filesystem::path& input) {
+  try {
+    OpenRecording({input.string()}, {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(OpenRecording, ABinFileOfVelodynePayloadsIsToldFromAScanByItsBytes) {
+  const TempFolder temp;
+  std::string payloads;
+  for (int i = 0; i < 160; ++i) payloads += EmptyVelodynePacket(i);
+  trajlo::testing::WriteFile(temp / "payloads.bin", payloads);
+  trajlo::testing::WriteFile(temp / "payloads.raw", payloads);  // The name does not matter.
+  EXPECT_THAT(OpenClouds(temp / "payloads.bin")->topics()[0].type, "VLP-16 packets");
+  EXPECT_THAT(OpenClouds(temp / "payloads.raw")->topics()[0].type, "VLP-16 packets");
+  // One damaged block does not make it a scan.
+  payloads[200] = '\0';
+  trajlo::testing::WriteFile(temp / "damaged.bin", payloads);
+  EXPECT_THAT(OpenClouds(temp / "damaged.bin")->topics()[0].type, "VLP-16 packets");
+}
+
+TEST(OpenRecording, ASingleScanIsRefusedAndItsFolderIsNamedAsTheMend) {
+  const TempFolder temp;
+  trajlo::testing::WriteFile(temp / "000000.bin", KittiScan(100));
+  EXPECT_THAT(ErrorOf(temp / "000000.bin"),
+              AllOf(HasSubstr("it may be a single scan"), HasSubstr("give the folder")));
+  trajlo::testing::WriteFile(temp / "odd.bin", KittiScan(100) + "?");
+  EXPECT_THAT(ErrorOf(temp / "odd.bin"),
+              AllOf(HasSubstr("does not begin with a data packet"), Not(HasSubstr("single scan"))));
+}
+
+TEST(OpenRecording, AFolderOfPayloadsIsNotTakenForScans) {
+  const TempFolder temp;
+  std::string payloads;
+  for (int i = 0; i < 8; ++i) payloads += EmptyVelodynePacket(i);
+  trajlo::testing::WriteFile(temp / "payloads.bin", payloads);
+  EXPECT_THAT(ErrorOf(temp.path()),
+              AllOf(HasSubstr("packets of a Velodyne"), HasSubstr("Give the file itself")));
 }
 
 TEST(OpenRecording, OneFolderThatIsMissingIsAnError) {

@@ -157,7 +157,7 @@ TEST_P(DamagedBag, WithAHoleGivesWhatIsBeforeAndBehindIt) {
   const auto path = Copy();
   std::string bag = ReadFile(path);
   const auto [begin, end] = RecordsOf(path, ros1::Op::kChunk)[1];
-  const ros1::BagFile file(path);
+  const RandomAccessFile file(path);
   ros1::Chunk in_hole_chunk;
   ros1::ChunkReader(file).Read(begin, end, &in_hole_chunk);
   const std::size_t in_hole = in_hole_chunk.messages.size();

@@ -23,9 +23,10 @@ class FixtureBag : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(FixtureBag, GivesEveryByteInTheOrderOfRecordingThoughItsChunksOverlap) {
   Ros1BagReader reader(Fixture(GetParam()));
-  EXPECT_THAT(reader.topics(),
-              ElementsAre(FieldsAre("/points", "sensor_msgs/PointCloud2", Encoding::kRos1, 20U),
-                          FieldsAre("/pose", "geometry_msgs/PoseStamped", Encoding::kRos1, 40U)));
+  EXPECT_THAT(
+      reader.topics(),
+      ElementsAre(FieldsAre("/points", "sensor_msgs/PointCloud2", Encoding::kRos1, 20U, ""),
+                  FieldsAre("/pose", "geometry_msgs/PoseStamped", Encoding::kRos1, 40U, "")));
   EXPECT_EQ(ReadRest(&reader), FixtureMessages());
   EXPECT_FALSE(reader.report().damaged);
   EXPECT_EQ(reader.report().bytes_lost, 0U);

@@ -69,7 +69,7 @@ inline std::vector<BagMessage> FixtureMessages() {
 /// Begin and end of the records of a whole bag.
 inline std::vector<std::pair<std::size_t, std::size_t>> RecordsOf(const std::filesystem::path& bag,
                                                                   ros1::Op op) {
-  const ros1::BagFile file(bag);
+  const RandomAccessFile file(bag);
   std::vector<std::pair<std::size_t, std::size_t>> records;
   for (std::uint64_t offset = ros1::kMagic.size(); offset < file.size();) {
     const auto record = ros1::ReadRecord(file, offset);

@@ -39,9 +39,10 @@ TEST_P(Written, BagReadsBackToTheLastByte) {
   writer.Close();
   EXPECT_FALSE(std::filesystem::exists(folder / "a.bag.part"));
   Ros1BagReader reader(folder / "a.bag");
-  EXPECT_THAT(reader.topics(),
-              ElementsAre(FieldsAre("/points", "sensor_msgs/PointCloud2", Encoding::kRos1, 20U),
-                          FieldsAre("/pose", "geometry_msgs/PoseStamped", Encoding::kRos1, 40U)));
+  EXPECT_THAT(
+      reader.topics(),
+      ElementsAre(FieldsAre("/points", "sensor_msgs/PointCloud2", Encoding::kRos1, 20U, ""),
+                  FieldsAre("/pose", "geometry_msgs/PoseStamped", Encoding::kRos1, 40U, "")));
   EXPECT_EQ(ReadRest(&reader), FixtureMessages());
   EXPECT_FALSE(reader.report().damaged);
 }

@@ -8,8 +8,8 @@
 namespace trajlo {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
+using ::testing::Contains;
+using ::testing::HasSubstr;
 
 constexpr std::int64_t kStampNs = 1'600'000'000'000'000'000;
 
@@ -40,7 +40,7 @@ void ExpectColumn(const PointTable& table, const std::string& name, ScalarType t
   }
 }
 
-class Layouts : public testing::TestWithParam<const char*> {
+class Layouts : public ::testing::TestWithParam<const char*> {
  protected:
   bool IsRos1() const { return std::string(GetParam()) == "ros1.mcap"; }
 };
@@ -124,8 +124,8 @@ TEST_P(Layouts, PosesOfEveryTypeAreRead) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Layouts,
-                         testing::Values("none.mcap", "zstd.mcap", "lz4.mcap", "unchunked.mcap",
-                                         "ros1.mcap"),
+                         ::testing::Values("none.mcap", "zstd.mcap", "lz4.mcap", "unchunked.mcap",
+                                           "ros1.mcap"),
                          [](const auto& param) {
                            const std::string name = param.param;
                            return name.substr(0, name.find('.'));

@@ -12,8 +12,8 @@
 namespace trajlo {
 namespace {
 
-using testing::Each;
-using testing::HasSubstr;
+using ::testing::Each;
+using ::testing::HasSubstr;
 
 constexpr std::size_t kMessages = 22;
 
@@ -22,7 +22,7 @@ std::size_t FindDataEnd(const std::string& whole) {
   return whole.rfind(std::string("\x0F\x04\0\0\0\0\0\0\0", 9));
 }
 
-class WholeFile : public testing::TestWithParam<const char*> {};
+class WholeFile : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(WholeFile, ListsTopicsWithTypesAndCounts) {
   McapReader reader(Fixture(GetParam()));
@@ -43,12 +43,12 @@ TEST_P(WholeFile, GivesOnlyWhatIsSelected) {
   EXPECT_EQ(messages.size(), 2U);
   for (const auto& message : messages) EXPECT_EQ(message.topic, "/pose");
   EXPECT_FALSE(reader.report().damaged);
-  EXPECT_THAT(reader.report().warnings, testing::IsEmpty());
+  EXPECT_THAT(reader.report().warnings, ::testing::IsEmpty());
 }
 
 TEST_P(WholeFile, CutAnywhereGivesAPrefixOfItsMessagesThatGrowsWithTheFile) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture(GetParam()));
+  const std::string whole = testing::ReadFile(Fixture(GetParam()));
   const auto all = ReadAll(Fixture(GetParam()));
   const std::size_t data_end = FindDataEnd(whole);
   std::size_t previous = 0;
@@ -75,7 +75,7 @@ TEST_P(WholeFile, CutAnywhereGivesAPrefixOfItsMessagesThatGrowsWithTheFile) {
 
 TEST_P(WholeFile, WithFlippedBytesNeitherCrashesNorInventsMessages) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture(GetParam()));
+  const std::string whole = testing::ReadFile(Fixture(GetParam()));
   std::mt19937 random(7);
   for (int trial = 0; trial < 150; ++trial) {
     std::string broken = whole;
@@ -98,7 +98,7 @@ TEST_P(WholeFile, WithFlippedBytesNeitherCrashesNorInventsMessages) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, WholeFile,
-                         testing::Values("none.mcap", "zstd.mcap", "lz4.mcap", "unchunked.mcap"),
+                         ::testing::Values("none.mcap", "zstd.mcap", "lz4.mcap", "unchunked.mcap"),
                          [](const auto& param) {
                            const std::string name = param.param;
                            return name.substr(0, name.find('.'));
@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Files, WholeFile,
 
 TEST(McapReader, AFileOfAKilledRecorderHasAllTopicsCountsAndMessages) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture("zstd.mcap"));
+  const std::string whole = testing::ReadFile(Fixture("zstd.mcap"));
   McapReader reader(folder.Write("killed.mcap", whole.substr(0, FindDataEnd(whole))));
   EXPECT_EQ(reader.topics().size(), 19U);
   EXPECT_EQ(FindTopic(reader, "/velodyne")->messages, 2U);
@@ -118,7 +118,7 @@ TEST(McapReader, AFileOfAKilledRecorderHasAllTopicsCountsAndMessages) {
 
 TEST(McapReader, AFileThatIsCompleteButHasNoSummaryIsNotDamaged) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture("none.mcap"));
+  const std::string whole = testing::ReadFile(Fixture("none.mcap"));
   const std::string footer = std::string("\x02\x14\0\0\0\0\0\0\0", 9) + std::string(20, '\0');
   McapReader reader(folder.Write(
       "plain.mcap", whole.substr(0, FindDataEnd(whole) + 13) + footer + whole.substr(0, 8)));
@@ -129,7 +129,7 @@ TEST(McapReader, AFileThatIsCompleteButHasNoSummaryIsNotDamaged) {
 
 TEST(McapReader, AChunkWithAWrongChecksumIsSkippedAndTheNextOneRead) {
   const TempFolder folder;
-  std::string broken = ReadBytes(Fixture("none.mcap"));
+  std::string broken = testing::ReadFile(Fixture("none.mcap"));
   const auto x_of_first_cloud = broken.find("lidar") + 200;
   broken[x_of_first_cloud] ^= 1;
   McapReader reader(folder.Write("crc.mcap", broken));
@@ -144,7 +144,7 @@ TEST(McapReader, AChunkWithAWrongChecksumIsSkippedAndTheNextOneRead) {
 
 TEST(McapReader, BehindABrokenLengthTheIndexShowsTheNextChunk) {
   const TempFolder folder;
-  std::string broken = ReadBytes(Fixture("lz4.mcap"));
+  std::string broken = testing::ReadFile(Fixture("lz4.mcap"));
   // Behind the magic and the header's record stands the first chunk: break its length.
   const auto first_chunk = 8 + 9 + static_cast<unsigned char>(broken[9]);
   ASSERT_EQ(broken[first_chunk], 0x06);
@@ -159,7 +159,7 @@ TEST(McapReader, BehindABrokenLengthTheIndexShowsTheNextChunk) {
 TEST(McapReader, AChunkThatClaimsToUnpackToMoreThanItHoldsAllocatesNoMoreThanComesOut) {
   const TempFolder folder;
   for (const char* name : {"zstd.mcap", "lz4.mcap"}) {
-    std::string broken = ReadBytes(Fixture(name));
+    std::string broken = testing::ReadFile(Fixture(name));
     const auto first_chunk = 8 + 9 + static_cast<unsigned char>(broken[9]);
     for (int k = 0; k < 8; ++k) broken[first_chunk + 9 + 16 + k] = '\x7F';
     McapReader reader(folder.Write("bomb.mcap", broken));
@@ -180,7 +180,7 @@ TEST(McapReader, OtherFilesAreErrorsThatSayWhatIsMissing) {
   };
   EXPECT_THAT(message(""), HasSubstr("does not begin with the format's mark"));
   EXPECT_THAT(message("#ROSBAG V2.0"), HasSubstr("this is no MCAP file"));
-  EXPECT_THAT(message(ReadBytes(Fixture("none.mcap")).substr(0, 60)),
+  EXPECT_THAT(message(testing::ReadFile(Fixture("none.mcap")).substr(0, 60)),
               HasSubstr("no channel is in the 60 bytes"));
   EXPECT_THROW(McapReader(folder.path() / "absent.mcap"), InputError);
   EXPECT_THROW(McapReader(folder.path()), InputError);

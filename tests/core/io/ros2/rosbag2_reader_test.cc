@@ -16,13 +16,13 @@
 namespace trajlo {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr std::size_t kMessages = 7;
 
-class Folder : public testing::TestWithParam<const char*> {};
+class Folder : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Folder, ListsTopicsWithTypesAndCounts) {
   Rosbag2Reader reader(Fixture(GetParam()));
@@ -69,8 +69,8 @@ TEST_P(Folder, LeavesNothingBehind) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Folders, Folder,
-                         testing::Values("plain_db3", "file_zstd_db3", "message_zstd_db3",
-                                         "split_db3"));
+                         ::testing::Values("plain_db3", "file_zstd_db3", "message_zstd_db3",
+                                           "split_db3"));
 
 TEST(Rosbag2Reader, MissingFilesOfASplitRecordingAreReportedAndPassedOver) {
   const TempFolder folder;
@@ -123,7 +123,7 @@ TEST(Db3Reader, ReadsInTheOrderOfTheRecordingTimesNotOfTheRows) {
   EXPECT_LT(times.front(), times.back());
 }
 
-class BrokenDb3 : public testing::TestWithParam<const char*> {
+class BrokenDb3 : public ::testing::TestWithParam<const char*> {
  protected:
   std::filesystem::path File() const {
     return Fixture(GetParam()) / (std::string(GetParam()) + ".db3");
@@ -132,7 +132,7 @@ class BrokenDb3 : public testing::TestWithParam<const char*> {
 
 TEST_P(BrokenDb3, CutAnywhereGivesMessagesOfTheWholeFileOrAnError) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(File());
+  const std::string whole = testing::ReadFile(File());
   const auto all = ReadAll(File());
   std::size_t most = 0;
   for (std::size_t size = 0; size < whole.size(); size += 97) {
@@ -156,7 +156,7 @@ TEST_P(BrokenDb3, CutAnywhereGivesMessagesOfTheWholeFileOrAnError) {
 
 TEST_P(BrokenDb3, WithFlippedBytesNeitherCrashesNorInventsMessages) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(File());
+  const std::string whole = testing::ReadFile(File());
   std::mt19937 random(7);
   for (int trial = 0; trial < 150; ++trial) {
     std::string broken = whole;
@@ -178,11 +178,11 @@ TEST_P(BrokenDb3, WithFlippedBytesNeitherCrashesNorInventsMessages) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, BrokenDb3, testing::Values("plain_db3", "message_zstd_db3"));
+INSTANTIATE_TEST_SUITE_P(Files, BrokenDb3, ::testing::Values("plain_db3", "message_zstd_db3"));
 
 TEST(BrokenDb3Zstd, CutAnywhereGivesWhatUnpacksOrAnError) {
   const TempFolder folder;
-  const std::string whole = ReadBytes(Fixture("file_zstd_db3/file_zstd_db3.db3.zstd"));
+  const std::string whole = testing::ReadFile(Fixture("file_zstd_db3/file_zstd_db3.db3.zstd"));
   for (std::size_t size = 0; size < whole.size(); size += 97) {
     const auto file = folder.Write("cut.db3.zstd", whole.substr(0, size));
     try {
@@ -227,15 +227,15 @@ TEST(Db3Reader, OtherDatabasesAndFilesAreErrorsThatSayWhatIsMissing) {
   };
   EXPECT_THAT(message(""), HasSubstr("this is no SQLite database"));
   EXPECT_THAT(message("#ROSBAG V2.0"), HasSubstr("this is no SQLite database"));
-  EXPECT_THAT(message(ReadBytes(Fixture("plain_db3/plain_db3.db3")).substr(0, 600)),
+  EXPECT_THAT(message(testing::ReadFile(Fixture("plain_db3/plain_db3.db3")).substr(0, 600)),
               HasSubstr("SQLite cannot read it"));
   sqlite3* other = nullptr;
   ASSERT_EQ(sqlite3_open((folder.path() / "other.db3").c_str(), &other), SQLITE_OK);
   sqlite3_exec(other, "CREATE TABLE topics (id)", nullptr, nullptr, nullptr);
   sqlite3_close(other);
-  EXPECT_THAT(message(ReadBytes(folder.path() / "other.db3")),
+  EXPECT_THAT(message(testing::ReadFile(folder.path() / "other.db3")),
               HasSubstr("no tables 'topics' and 'messages'"));
-  std::string renamed = ReadBytes(Fixture("plain_db3/plain_db3.db3"));
+  std::string renamed = testing::ReadFile(Fixture("plain_db3/plain_db3.db3"));
   const auto at = renamed.find("CREATE TABLE topics");
   ASSERT_NE(at, std::string::npos);
   renamed.replace(at, 19, "CREATE TROUBLE here");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/io/ros2/input_file.h"
+#include "core/io/random_access_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -14,8 +14,8 @@
 
 namespace trajlo {
 
-InputFile::InputFile(const std::filesystem::path& path)
-    : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+RandomAccessFile::RandomAccessFile(const std::filesystem::path& path)
+    : path_(path), fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
   struct stat info {};
   if (fd_ < 0 || ::fstat(fd_, &info) != 0) {
     const std::string reason = std::strerror(errno);
@@ -30,20 +30,24 @@ InputFile::InputFile(const std::filesystem::path& path)
   size_ = static_cast<std::uint64_t>(info.st_size);
 }
 
-InputFile::~InputFile() { ::close(fd_); }
+RandomAccessFile::~RandomAccessFile() { ::close(fd_); }
 
-FileBytes InputFile::ReadAt(std::uint64_t offset, std::size_t size) const {
-  if (offset >= size_) return {};
-  FileBytes bytes(static_cast<std::size_t>(std::min<std::uint64_t>(size, size_ - offset)));
+std::size_t RandomAccessFile::Read(std::uint64_t offset, char* bytes, std::size_t count) const {
   std::size_t filled = 0;
-  while (filled < bytes.size()) {
-    const ssize_t got = ::pread(fd_, bytes.data() + filled, bytes.size() - filled,
-                                static_cast<off_t>(offset + filled));
+  while (filled < count) {
+    const ssize_t got =
+        ::pread(fd_, bytes + filled, count - filled, static_cast<off_t>(offset + filled));
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;
     filled += static_cast<std::size_t>(got);
   }
-  bytes.Shrink(filled);
+  return filled;
+}
+
+FileBytes RandomAccessFile::Read(std::uint64_t offset, std::size_t count) const {
+  if (offset >= size_) return {};
+  FileBytes bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - offset)));
+  bytes.Shrink(Read(offset, bytes.data(), bytes.size()));
   return bytes;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/info/reading_progress.h"
+#include "apps/reading_progress.h"
 
 #include <unistd.h>
 

@@ -5,7 +5,7 @@
 
 namespace trajlo {
 
-/// A flag that cannot be understood; the message names it.
+/// A command line that cannot be understood; the message names the flag or argument.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "apps/run/interrupt.h"
+#include "apps/interrupt.h"
 
 #include <csignal>
 
@@ -24,8 +24,6 @@ const std::atomic<bool>& HandleInterrupts() {
   struct sigaction hangup {};
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup wins.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
   return interrupted;
 }
 

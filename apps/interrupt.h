@@ -6,8 +6,7 @@
 namespace trajlo {
 
 /// From now on SIGINT, SIGTERM and SIGHUP set the flag that is returned, so that the run can write
-/// what it has; a second signal ends the process at once, as usual. Writing into a closed pipe or
-/// beyond a file size limit becomes an error of the call in place of a signal.
+/// what it has; a second signal ends the process at once, as usual.
 const std::atomic<bool>& HandleInterrupts();
 
 }  // namespace trajlo

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "apps/require_extrinsics.h"
+
+#include <cstddef>
+
+#include "apps/usage_error.h"
+#include "core/io/recording/open_recording.h"
+
+namespace trajlo {
+
+void RequireExtrinsics(const std::vector<std::string>& inputs, const RunConfig& config) {
+  const std::vector<std::string> lidars = LidarNames(inputs, config.input);
+  const std::size_t given = config.odometry.segmenter.T_body_lidar.size();
+  if (lidars.size() < 2 || given >= lidars.size()) return;
+  std::string text = std::to_string(lidars.size()) + " LiDARs are read, and sensor.T_body_lidar " +
+                     (given == 0 ? "is empty" : "has " + std::to_string(given)) +
+                     ": it needs the pose of each in the body frame, in this order. In a file for "
+                     "--config:\n  sensor:\n    T_body_lidar:\n";
+  for (const std::string& name : lidars) {
+    text += "      - {translation_m: [x, y, z], rotation: [qx, qy, qz, qw]}  # " + name + "\n";
+  }
+  std::string identities = "{}";
+  for (std::size_t i = 1; i < lidars.size(); ++i) identities += ", {}";
+  throw UsageError(text + "or, where they all sit in the body's origin, " +
+                   "'--set=sensor.T_body_lidar=[" + identities + "]'");
+}
+
+}  // namespace trajlo

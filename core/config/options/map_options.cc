@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The map, and how points find planes in it.
+#include "core/config/options/bind_options.h"
+#include "core/config/options/option_binder.h"
+
+namespace trajlo {
+namespace {
+
+const Names<MapKind> kMapKinds = {{"voxel_hash", MapKind::kVoxelHash},
+                                  {"kd_tree", MapKind::kKdTree}};
+
+}  // namespace
+
+void BindMap(MapPyramidOptions* pyramid, OptionBinder* b) {
+  MapOptions* map = &pyramid->finest;
+  b->Add("map.kind", map->kind, kMapKinds,
+         "voxel_hash is fast; kd_tree finds the exact neighbours.");
+  b->Add("map.voxel_size_m", map->voxel_size_m, Range<double>{1e-2, 20.0},
+         "Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).");
+  b->Add("map.max_points_per_voxel", map->max_points_per_voxel, Range<int>{1, 1000},
+         "A full voxel takes no more points.");
+  b->Add("map.min_point_spacing_m", map->min_point_spacing_m, Range<double>{0.0, 10.0},
+         "A point nearer than this to another of its voxel is not added: otherwise a sensor at "
+         "rest fills the voxels with copies of the same rings.");
+  b->Add("map.radius_m", map->radius_m, Range<double>{1.0, 1e4},
+         "Voxels farther than this from the sensor are dropped.");
+  b->Add("map.levels", pyramid->levels, Range<int>{1, 8},
+         "Maps of growing coarseness, asked in turn until one has a plane; 1 is the paper's map.");
+  b->Add("map.level_ratio", pyramid->level_ratio, Range<double>{1.1, 10.0},
+         "Voxels and spacing grow by this from level to level.");
+}
+
+void BindAssociation(AssociationOptions* association, OptionBinder* b) {
+  PlaneFitOptions& plane = association->plane;
+  b->Add("association.plane.neighbors", plane.neighbors, Range<int>{3, kMaxNeighbors},
+         "Map points taken for a plane (paper: 5).");
+  b->Add("association.plane.min_neighbors", plane.min_neighbors, Range<int>{3, kMaxNeighbors},
+         "Fewer make no plane.");
+  b->Add("association.plane.max_thickness_m", plane.max_thickness_m, Range<double>{1e-4, 10.0},
+         "Upper bound of the neighbours' standard deviation across the plane.");
+  b->Add("association.plane.min_width_in_spacings", plane.min_width_in_spacings,
+         Range<double>{0.0, 10.0},
+         "Lower bound of their standard deviation along the plane's shorter axis, in spacings of "
+         "the map's points: neighbours on one scan line have no normal.");
+  b->Add("association.plane.max_flatness", plane.max_flatness, Range<double>{1e-3, 1.0},
+         "Upper bound of the ratio of the first to the second.");
+  b->Add("association.plane.half_weight_thickness_m", plane.half_weight_thickness_m,
+         Range<double>{1e-4, 100.0},
+         "A plane of this thickness weighs half as much as a thin one.");
+  b->Add("association.reach_in_thresholds", association->reach_in_thresholds,
+         Range<double>{0.1, 100.0},
+         "The nearest neighbour may be this many adaptive thresholds away.");
+  b->Add("association.reassociate_distance_m", association->reassociate_distance_m,
+         Range<double>{0.0, 10.0},
+         "A point keeps its plane until it has moved by more than this since the look-up.");
+}
+
+}  // namespace trajlo
