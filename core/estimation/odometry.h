@@ -6,6 +6,7 @@
 
 #include "core/estimation/adaptive_threshold.h"
 #include "core/estimation/association.h"
+#include "core/estimation/deskew.h"
 #include "core/estimation/solver_options.h"
 #include "core/estimation/weight_balance.h"
 #include "core/estimation/window_solver.h"
@@ -19,6 +20,9 @@ namespace trajlo {
 struct WindowOptions {
   /// The paper's K: segments that are estimated together.
   int segments = 4;
+  /// `predicted` is for comparison: discrete poses, deskewed by constant velocity, as in KISS-ICP.
+  /// The first interval is moved by its own estimate in either case.
+  Deskewing deskewing = Deskewing::kEstimated;
 };
 
 struct InitializationOptions {

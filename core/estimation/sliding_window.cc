@@ -37,6 +37,10 @@ WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
   segments_.back().cloud = std::move(cloud);
   Predict();
   const SE3 predicted = problem_.poses.back();
+  if (options_.window.deskewing == Deskewing::kPredicted) {
+    Segment& newest = segments_.back();
+    DeskewToEnd(expected_velocity_.back() * newest.Duration_s(), &newest.cloud);
+  }
   const std::vector<SE3> start = problem_.poses;
 
   WindowStatistics statistics;

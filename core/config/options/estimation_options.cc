@@ -4,10 +4,20 @@
 #include "core/config/options/option_binder.h"
 
 namespace trajlo {
+namespace {
+
+const Names<Deskewing> kDeskewings = {{"estimated", Deskewing::kEstimated},
+                                      {"predicted", Deskewing::kPredicted}};
+
+}  // namespace
 
 void BindEstimation(OdometryOptions* odometry, OptionBinder* b) {
   b->Add("window.segments", odometry->window.segments, Range<int>{1, 100},
          "Segments that are estimated together, the paper's K.");
+  b->Add("window.deskewing", odometry->window.deskewing, kDeskewings,
+         "What moves the points of a segment to one time: the estimated trajectory, in every "
+         "iteration anew, or once the predicted motion (discrete poses and constant velocity, as "
+         "in KISS-ICP; for comparison).");
   InitializationOptions& initialization = odometry->initialization;
   b->Add("initialization.estimate_motion", initialization.estimate_motion,
          "Estimates the motion during the first interval by registering its second half to its "

@@ -289,6 +289,23 @@ TEST(Odometry, RunsInDiscreteModeOnMotionCorrectedScans) {
   EXPECT_LT(LargestError(world, run.odometry->trajectory(), 2.5), 0.03);
 }
 
+TEST(Odometry, DeskewingByPredictionIsAsGoodAtConstantTwistAndWorseInAShake) {
+  SyntheticWorld world;
+  const auto errors = [&world](Deskewing deskewing) {
+    OdometryOptions options = RoomOptions();
+    options.segmenter.interval_s = 0.1;
+    options.window.deskewing = deskewing;
+    return LargestError(world, RunOn(world, options, 20).odometry->trajectory(), 1.95);
+  };
+  world.T_world_body = ConstantTwist;
+  EXPECT_LT(errors(Deskewing::kPredicted), 0.03);
+  world.T_world_body = [](double t) {
+    const double s = std::max(0.0, t - 0.5);
+    return SE3(so3::Exp({0.0, 0.0, 0.15 * (1.0 - std::cos(8.0 * s))}), {0.3 * s * s, 0.0, 0.0});
+  };
+  EXPECT_GT(errors(Deskewing::kPredicted), 2.0 * errors(Deskewing::kEstimated));
+}
+
 TEST(Odometry, TwoLidarsWithExtrinsicsMakeOneTrajectory) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;
