@@ -42,40 +42,51 @@ struct SegmenterOptions {
 /// holes. A segment is handed out when every LiDAR has passed its end. Scans without point times
 /// (motion-corrected ones) become one segment each, from the previous stamp to their own, with
 /// alpha = 1 for every point: the discrete mode of the paper.
+///
+/// The stream is cut into slots of `interval_s / divisions`; how many of them make a segment is
+/// said when the segment is asked for, so that it can depend on all segments before it, and on
+/// nothing else.
 class Segmenter {
  public:
-  explicit Segmenter(const SegmenterOptions& options);
+  explicit Segmenter(const SegmenterOptions& options, int divisions = 1);
 
   void AddScan(const LidarScan& scan);
   /// No further scans: the segments still open are completed, the last one as far as it is filled.
   void Finish();
-  /// The next complete segment, oldest first.
-  std::optional<SegmentCloud> Next();
+  /// The next segment of `slots` slots, oldest first; empty until all of them are complete. It ends
+  /// early only before a gap and at the end of the stream. The first segment, a gap, and a scan
+  /// without point times are one slot each.
+  std::optional<SegmentCloud> Next(int slots = 1);
 
   const PointCounts& counts() const { return counts_; }
 
  private:
-  struct Open {
-    SegmentCloud cloud;
-    std::vector<SegmentPoint> points;
+  struct Slot {
+    std::int64_t begin_ns, end_ns;
+    bool is_whole;  ///< A segment by itself.
+    bool is_gap;
+    std::vector<SegmentPoint> points;  ///< With alpha within the slot.
   };
   void AddContinuous(const LidarScan& scan);
   void AddDiscrete(const LidarScan& scan);
   bool Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body);
-  Open& SegmentAt(std::int64_t t_ns);
-  void OpenNext(std::int64_t end_ns, bool is_gap);
+  Slot& SlotAt(std::int64_t t_ns);
+  void OpenNext(std::int64_t end_ns, bool is_whole, bool is_gap = false);
   void CompleteUntil(std::int64_t t_ns);
-  void Complete(Open* open);
+  std::int64_t FirstOpen_ns() const;
+  std::vector<SegmentPoint> TakePoints(std::size_t slots);
+  void Thin(std::vector<SegmentPoint> points, SegmentCloud* cloud);
 
   SegmenterOptions options_;
+  std::int64_t slot_ns_;
   PointCounts counts_;
   VoxelFilter map_filter_;
   VoxelFilter registration_filter_;
-  bool first_completed_ = false;
-  std::deque<Open> open_;
-  std::deque<SegmentCloud> complete_;
+  bool first_taken_ = false;
+  std::deque<Slot> slots_;  ///< Not yet handed out, without holes.
+  std::int64_t complete_until_ns_;
   std::vector<std::int64_t> newest_ns_;  ///< Newest time of each LiDAR.
-  std::optional<std::int64_t> end_ns_;   ///< End of the newest open or completed segment.
+  std::optional<std::int64_t> end_ns_;   ///< End of the newest slot.
 };
 
 }  // namespace trajlo

@@ -20,7 +20,8 @@ LidarScan MakeScan(std::int64_t first_ms, int count, int lidar = 0) {
   for (int i = 0; i < count; ++i) {
     scan.points.push_back(
         {{5.0F + static_cast<float>((first_ms + i) % 100), static_cast<float>(10 * lidar), 1.0F},
-         0.0F, (first_ms + i) * kMs});
+         0.0F,
+         (first_ms + i) * kMs});
   }
   return scan;
 }
@@ -74,6 +75,69 @@ TEST(Segmenter, HasNoHolesBetweenSegmentsAndTimesWithinThem) {
       EXPECT_LT(point.alpha, 1.0F);
     }
   }
+}
+
+/// Asks for segments of 1, 3, 2, 1, 3, 2, ... slots, as far as they are complete.
+void DrainByTurns(Segmenter* segmenter, std::vector<SegmentCloud>* clouds) {
+  const int slots[] = {1, 3, 2};
+  while (auto cloud = segmenter->Next(slots[clouds->size() % 3])) {
+    clouds->push_back(std::move(*cloud));
+  }
+}
+
+TEST(Segmenter, CutsSegmentsOfChangingLengthWithoutHolesOrLostPoints) {
+  SegmenterOptions options = SmallOptions();
+  std::vector<std::vector<SegmentCloud>> results;
+  for (int scan_ms : {7, 40, 100, 400}) {
+    Segmenter segmenter(options, 3);
+    std::vector<SegmentCloud> clouds;
+    for (int t = 0; t < 2800; t += scan_ms) {
+      segmenter.AddScan(MakeScan(t, std::min(scan_ms, 2800 - t)));
+      DrainByTurns(&segmenter, &clouds);
+    }
+    segmenter.Finish();
+    DrainByTurns(&segmenter, &clouds);
+    results.push_back(std::move(clouds));
+  }
+  for (const auto& clouds : results) {
+    ASSERT_EQ(clouds.size(), results[0].size());
+    std::size_t points = 0;
+    for (std::size_t k = 0; k < clouds.size(); ++k) {
+      const SegmentCloud& cloud = clouds[k];
+      EXPECT_EQ(cloud.begin_ns, k == 0 ? 0 : clouds[k - 1].end_ns);
+      EXPECT_EQ(cloud.end_ns, results[0][k].end_ns);
+      ASSERT_EQ(cloud.map_points.size(), results[0][k].map_points.size());
+      points += cloud.map_points.size();
+      for (std::size_t i = 0; i < cloud.map_points.size(); ++i) {
+        const SegmentPoint& point = cloud.map_points[i];
+        EXPECT_EQ(point.alpha, results[0][k].map_points[i].alpha);
+        const double t_ms =
+            1e-6 * (static_cast<double>(cloud.begin_ns) +
+                    point.alpha * static_cast<double>(cloud.end_ns - cloud.begin_ns));
+        EXPECT_NEAR(std::fmod(t_ms + 0.5, 100.0) - 0.5, point.p_body_m.x() - 5.0, 1e-3);
+      }
+    }
+    EXPECT_EQ(points, 2800u);
+  }
+  EXPECT_EQ(results[0][1].end_ns - results[0][1].begin_ns, 30 * kMs);
+  EXPECT_EQ(results[0][2].end_ns - results[0][2].begin_ns, 20 * kMs);
+  EXPECT_EQ(results[0][3].end_ns - results[0][3].begin_ns, 10 * kMs);
+}
+
+TEST(Segmenter, ASegmentOfSeveralSlotsEndsEarlyBeforeAGap) {
+  Segmenter segmenter(SmallOptions(), 3);
+  segmenter.AddScan(MakeScan(0, 105));
+  segmenter.AddScan(MakeScan(5000, 100));
+  ASSERT_TRUE(segmenter.Next(3));
+  const auto before = segmenter.Next(3);
+  const auto gap = segmenter.Next(3);
+  const auto after = segmenter.Next(3);
+  ASSERT_TRUE(before && gap && after);
+  EXPECT_EQ(before->end_ns, 110 * kMs);
+  EXPECT_EQ(before->map_points.size(), 5u);
+  EXPECT_TRUE(gap->is_gap);
+  EXPECT_EQ(gap->end_ns, 5000 * kMs);
+  EXPECT_EQ(after->end_ns, 5030 * kMs);
 }
 
 TEST(Segmenter, DropsAndCountsPointsThatCannotBeUsed) {
