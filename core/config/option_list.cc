@@ -13,6 +13,7 @@ std::vector<Option> BindOptions(RunConfig* config) {
   OptionBinder binder;
   BindInput(&config->input, &binder);
   BindSensing(&odometry->segmenter, &binder);
+  BindAdaptiveInterval(&odometry->adaptive_interval, &binder);
   BindMap(&odometry->map, &binder);
   BindAssociation(&odometry->association, &binder);
   BindThreshold(&odometry->threshold, &binder);
@@ -31,6 +32,7 @@ std::string SectionDoc(const std::string& section) {
        "which is printed."},
       {"sensor", "The LiDARs."},
       {"segmenter", "How the stream of points is cut into segments and thinned."},
+      {"adaptive_interval", "How the length of segments follows the motion."},
       {"map", "The local map that points are registered to."},
       {"association", "How a point finds its plane."},
       {"association.plane", "When neighbours make a plane."},

@@ -21,7 +21,9 @@ class Odometry::Impl {
   Impl(const OdometryOptions& options, const WindowSolverFactory& make_solver)
       : options_(options),
         threads_(options.threads),
-        segmenter_(options.segmenter),
+        segmenter_(options.segmenter,
+                   options.adaptive_interval.enabled ? options.adaptive_interval.divisions : 1),
+        interval_(options.adaptive_interval, options.segmenter.interval_s),
         map_(options.map),
         window_(options, &map_, &threads_, make_solver) {}
 
@@ -43,6 +45,7 @@ class Odometry::Impl {
   OdometryOptions options_;
   ThreadPool threads_;
   Segmenter segmenter_;
+  SegmentInterval interval_;
   MapPyramid map_;
   SlidingWindow window_;
   Trajectory trajectory_;
@@ -52,13 +55,20 @@ class Odometry::Impl {
 
  private:
   void ProcessSegments() {
-    while (auto cloud = segmenter_.Next()) {
+    while (auto cloud = NextSegment()) {
       if (!started_) {
         Start(*cloud);
       } else {
         Process(std::move(*cloud));
       }
     }
+  }
+
+  std::optional<SegmentCloud> NextSegment() {
+    Stopwatch watch;
+    auto cloud = segmenter_.Next(options_.adaptive_interval.enabled ? interval_.slots() : 1);
+    milliseconds_segment_ += watch.Milliseconds();
+    return cloud;
   }
 
   /// The first interval: its motion, then its points into the map.
@@ -84,7 +94,9 @@ class Odometry::Impl {
       BridgeGap(cloud);
       return;
     }
+    const double duration_s = Seconds(cloud.end_ns - cloud.begin_ns);
     WindowStatistics statistics = window_.AddSegment(std::move(cloud));
+    if (options_.adaptive_interval.enabled) interval_.Update(RecentTrajectory(), duration_s);
     statistics.index = windows_++;
     statistics.milliseconds_segment = std::exchange(milliseconds_segment_, 0.0);
     if (window_.segments() >= options_.window.segments) {
@@ -94,6 +106,22 @@ class Odometry::Impl {
     }
     WatchForLoss(&statistics);
     if (callback_) callback_(statistics);
+  }
+
+  /// The control poses of the window, and as many settled ones as the interval looks back on.
+  Trajectory RecentTrajectory() const {
+    const std::vector<ControlPose> window = window_.poses();
+    const std::vector<ControlPose>& settled = trajectory_.poses();
+    const double history_s = interval_.history_s();
+    std::size_t first = settled.size();
+    while (first > 0 && (first == settled.size() ||
+                         Seconds(window.back().t_ns - settled[first].t_ns) < history_s)) {
+      --first;
+    }
+    Trajectory recent;
+    for (std::size_t i = first; i < settled.size(); ++i) recent.Append(settled[i]);
+    for (const ControlPose& pose : window) recent.Append(pose);
+    return recent;
   }
 
   /// The pose at the front of the window is final.
@@ -122,6 +150,7 @@ class Odometry::Impl {
     while (window_.segments() > 0) Leave();
     ControlPose held = window_.front_pose();
     held.flags |= kFlagGap;
+    interval_.Reset();
     Settle(held, on_pose_ ? window_.front_covariance() : Matrix6d::Zero());
     window_.Start(gap.end_ns, held.T_world_body, Vector6d::Zero());
   }

@@ -7,6 +7,7 @@
 #include "core/estimation/adaptive_threshold.h"
 #include "core/estimation/association.h"
 #include "core/estimation/deskew.h"
+#include "core/estimation/segment_interval.h"
 #include "core/estimation/solver_options.h"
 #include "core/estimation/weight_balance.h"
 #include "core/estimation/window_solver.h"
@@ -56,6 +57,7 @@ struct LostOptions {
 /// Everything that the estimator can be told, by module.
 struct OdometryOptions {
   SegmenterOptions segmenter;
+  AdaptiveIntervalOptions adaptive_interval;
   MapPyramidOptions map;
   AssociationOptions association;
   AdaptiveThresholdOptions threshold;

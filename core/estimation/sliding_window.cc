@@ -32,6 +32,14 @@ ControlPose SlidingWindow::front_pose() const {
   return {front_ns_, problem_.poses.front(), front_flags_};
 }
 
+std::vector<ControlPose> SlidingWindow::poses() const {
+  std::vector<ControlPose> poses = {front_pose()};
+  for (std::size_t k = 0; k < segments_.size(); ++k) {
+    poses.push_back({segments_[k].cloud.end_ns, problem_.poses[k + 1], segments_[k].flags});
+  }
+  return poses;
+}
+
 WindowStatistics SlidingWindow::AddSegment(SegmentCloud cloud) {
   segments_.emplace_back();
   segments_.back().cloud = std::move(cloud);

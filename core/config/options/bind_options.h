@@ -10,6 +10,7 @@ class OptionBinder;
 // Each adds the options of one or a few sections, in the order of the dump.
 void BindInput(RecordingOptions* input, OptionBinder* b);
 void BindSensing(SegmenterOptions* segmenter, OptionBinder* b);
+void BindAdaptiveInterval(AdaptiveIntervalOptions* interval, OptionBinder* b);
 void BindMap(MapPyramidOptions* pyramid, OptionBinder* b);
 void BindAssociation(AssociationOptions* association, OptionBinder* b);
 void BindThreshold(AdaptiveThresholdOptions* threshold, OptionBinder* b);
