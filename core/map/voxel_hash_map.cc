@@ -51,7 +51,8 @@ std::size_t VoxelHashMap::KeyHash::operator()(const Key& key) const {
 VoxelHashMap::VoxelHashMap(const MapOptions& options)
     : options_(options),
       voxel_size_(options.voxel_size_m),
-      stride_(3 * static_cast<std::size_t>(options.max_points_per_voxel)) {}
+      stride_(3 * static_cast<std::size_t>(options.max_points_per_voxel)),
+      counts_(1024, 0) {}
 
 VoxelHashMap::Key VoxelHashMap::KeyOf(const Eigen::Vector3d& p) const {
   return (p / voxel_size_).array().floor().cast<int>();
@@ -60,6 +61,18 @@ VoxelHashMap::Key VoxelHashMap::KeyOf(const Eigen::Vector3d& p) const {
 int VoxelHashMap::Find(const Key& key) const {
   const auto found = index_.find(key);
   return found == index_.end() ? -1 : found->second;
+}
+
+void VoxelHashMap::AddToCounts(const Key& key, std::uint32_t points) {
+  counts_[SlotOf(key)] += points;
+  for (const Eigen::Vector3i& direction : kDirections) counts_[SlotOf(key + direction)] += points;
+}
+
+void VoxelHashMap::GrowCounts() {
+  counts_.assign(4 * counts_.size(), 0);
+  for (const Block& block : blocks_) {
+    if (block.count > 0) AddToCounts(block.key, static_cast<std::uint32_t>(block.count));
+  }
 }
 
 int VoxelHashMap::AddBlock(const Key& key) {
@@ -72,6 +85,8 @@ int VoxelHashMap::AddBlock(const Key& key) {
     free_.pop_back();
   }
   index_[key] = block;
+  // Seven entries a voxel: about every second one stays zero.
+  if (10 * index_.size() > counts_.size()) GrowCounts();
   blocks_[block].key = key;
   blocks_[block].count = 0;
   for (int d = 0; d < 6; ++d) {
@@ -88,6 +103,7 @@ void VoxelHashMap::FreeBlock(int block) {
     if (neighbor >= 0) blocks_[neighbor].neighbors[d ^ 1] = -1;
   }
   index_.erase(blocks_[block].key);
+  AddToCounts(blocks_[block].key, -static_cast<std::uint32_t>(blocks_[block].count));
   point_count_ -= static_cast<std::size_t>(blocks_[block].count);
   blocks_[block].count = -1;
   free_.push_back(block);
@@ -111,6 +127,7 @@ bool VoxelHashMap::InsertPoint(const Eigen::Vector3d& point_world) {
   points[capacity + count] = p.y();
   points[2 * capacity + count] = p.z();
   ++blocks_[block].count;
+  AddToCounts(key, 1);
   ++point_count_;
   return true;
 }
@@ -172,6 +189,7 @@ void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, int at_lea
   Best best{std::min(k, kMaxNeighbors), neighbors};
 
   // Most queries in sparse surroundings end here: too few points for any answer that is wanted.
+  if (counts_[SlotOf(key)] < static_cast<std::uint32_t>(at_least)) return;
   const int own = Find(key);
   int around[6];
   int count = own >= 0 ? blocks_[own].count : 0;

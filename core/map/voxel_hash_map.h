@@ -16,8 +16,10 @@ namespace trajlo {
 /// Points are stored in blocks (one a voxel, x then y then z, single precision relative to the
 /// voxel's corner), so that the distances of a voxel are one short vector loop. Blocks know their
 /// six neighbours: a query hashes once. A neighbour voxel is skipped when its face is farther than
-/// the k-th point found so far; this never changes the answer. Voxel indices are floor(x / size) as
-/// 32-bit numbers: coordinates of 1e6 m are fine.
+/// the k-th point found so far, and nothing is looked up where a table of counts says that the
+/// seven voxels hold too few points (most queries of a sensor in the open end there); neither
+/// changes the answer. Voxel indices are floor(x / size) as 32-bit numbers: coordinates of 1e6 m
+/// are fine.
 class VoxelHashMap final : public PointMap {
  public:
   explicit VoxelHashMap(const MapOptions& options);
@@ -49,6 +51,9 @@ class VoxelHashMap final : public PointMap {
   Key KeyOf(const Eigen::Vector3d& p) const;
   Eigen::Vector3d Corner(const Key& key) const { return voxel_size_ * key.cast<double>(); }
   int Find(const Key& key) const;
+  std::size_t SlotOf(const Key& key) const { return KeyHash()(key) & (counts_.size() - 1); }
+  void AddToCounts(const Key& key, std::uint32_t points);
+  void GrowCounts();
   int AddBlock(const Key& key);
   void FreeBlock(int block);
   const float* Points(int block) const { return coordinates_.data() + stride_ * block; }
@@ -59,6 +64,9 @@ class VoxelHashMap final : public PointMap {
   std::size_t stride_;  ///< Floats of a block: 3 times its capacity.
   tsl::robin_map<Key, int, KeyHash> index_;
   std::vector<Block> blocks_;
+  /// By the hash of a voxel: how many points it and its six neighbours hold, or more (voxels that
+  /// fall on the same entry add up). Its size is a power of two.
+  std::vector<std::uint32_t> counts_;
   std::vector<float> coordinates_;
   std::vector<int> free_;
   std::size_t point_count_ = 0;

@@ -66,6 +66,34 @@ TEST(VoxelHashMap, FindsTheNearestPointsOfItsSevenVoxels) {
   }
 }
 
+TEST(VoxelHashMap, GivesNothingOrTheSameWhereSomeNeighboursAreWanted) {
+  // Sparse enough that many queries have fewer than wanted; large enough that the counts have grown,
+  // and with a part of the map removed.
+  MapOptions options = Options(0.5, 0.0);
+  options.radius_m = 12.0;
+  VoxelHashMap map(options);
+  map.Insert(RandomPoints(20000, 10.0, Eigen::Vector3d::Zero(), 11));
+  map.RemoveFar({5, 0, 0});
+  int given = 0, withheld = 0;
+  for (const auto& query : RandomPoints(2000, 10.0, Eigen::Vector3d::Zero(), 12)) {
+    Neighbors all, wanted;
+    map.Nearest(query, 8, 1, &all);
+    map.Nearest(query, 8, 4, &wanted);
+    if (all.count < 4) {
+      EXPECT_TRUE(wanted.count == 0 || wanted.count == all.count);
+      withheld += wanted.count < all.count;
+      continue;
+    }
+    ++given;
+    ASSERT_EQ(wanted.count, all.count);
+    for (int i = 0; i < all.count; ++i) {
+      EXPECT_EQ(wanted.squared_distance[i], all.squared_distance[i]);
+    }
+  }
+  EXPECT_GT(given, 50);
+  EXPECT_GT(withheld, 50);
+}
+
 TEST(VoxelHashMap, AgreesWithTheKdTreeWhereTheNeighboursAreInReach) {
   const MapOptions options = Options(1.0, 0.02);
   VoxelHashMap hash(options);
