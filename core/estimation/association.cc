@@ -16,7 +16,6 @@ SegmentAssociation::Counts SegmentAssociation::Associate(const std::vector<Segme
   entries_.resize(points.size());
   const PointInterpolator to_world(T_begin, T_end);
   const double reach_m = options.reach_in_thresholds * threshold_m;
-  const double keep = options.reassociate_distance_m * options.reassociate_distance_m;
 
   constexpr std::size_t kChunk = 64;
   const std::size_t chunks = (points.size() + kChunk - 1) / kChunk;
@@ -28,12 +27,13 @@ SegmentAssociation::Counts SegmentAssociation::Associate(const std::vector<Segme
       const Eigen::Vector3d p_world = to_world(points[i].alpha, points[i].p_body_m.cast<double>());
       const bool stands =
           entry.state == Entry::State::kPlane || (entry.state == Entry::State::kNone && !renew);
-      if (stands && (p_world - entry.looked_up_at).squaredNorm() <= keep) continue;
+      if (stands && (p_world - entry.looked_up_at).norm() <= entry.keep_m) continue;
       entry.looked_up_at = p_world;
       ++chunk_searched_[chunk];
-      entry.state = map.FindPlane(p_world, options.plane, reach_m, &entry.plane)
-                        ? Entry::State::kPlane
-                        : Entry::State::kNone;
+      const bool found = map.FindPlane(p_world, options.plane, reach_m, &entry.plane);
+      entry.state = found ? Entry::State::kPlane : Entry::State::kNone;
+      entry.keep_m =
+          options.reassociate_distance_m * (found ? entry.plane.scale : map.coarsest_scale());
     }
   });
 

@@ -15,7 +15,10 @@ struct AssociationOptions {
   PlaneFitOptions plane;
   /// The nearest neighbour may be this many thresholds away.
   double reach_in_thresholds = 2.0;
-  /// A point keeps its plane until it has moved by more than this since the plane was looked up.
+  /// A point keeps its plane until it has moved by more than this since the plane was looked up,
+  /// times the ratio of the plane's level: where points are sparse, the plane of the next few would
+  /// be another one, and windows would not converge. A point without a plane has asked all levels,
+  /// and keeps that answer as long as a plane of the coarsest.
   double reassociate_distance_m = 0.02;
 };
 
@@ -39,6 +42,7 @@ class SegmentAssociation {
  private:
   struct Entry {
     Eigen::Vector3d looked_up_at;
+    double keep_m = 0.0;
     Plane plane;
     enum class State : unsigned char { kNew, kNone, kPlane } state = State::kNew;
   };

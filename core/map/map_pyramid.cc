@@ -39,6 +39,7 @@ bool MapPyramid::FindPlane(const Eigen::Vector3d& query_world, const PlaneFitOpt
     if (neighbors.squared_distance[0] > reach * reach) continue;
     if (FitPlane(neighbors, options, level.spacing_m, plane)) {
       plane->weight /= level.scale;
+      plane->scale = level.scale;
       return true;
     }
   }

@@ -33,6 +33,8 @@ class MapPyramid {
                  Plane* plane) const;
 
   const PointMap& finest() const { return *levels_.front().map; }
+  /// Voxels of the coarsest level in those of the finest.
+  double coarsest_scale() const { return levels_.back().scale; }
   /// Points of all levels.
   std::size_t size() const;
 

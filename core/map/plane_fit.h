@@ -31,6 +31,8 @@ struct Plane {
   double width_m;      ///< l1
   /// Relative information of a distance to it, in (0, 1].
   double weight = 1.0;
+  /// Spacing of the map it comes from, in those of the finest.
+  double scale = 1.0;
 };
 
 /// The plane through the neighbours by principal component analysis; false when they make none.

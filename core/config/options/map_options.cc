@@ -52,7 +52,8 @@ void BindAssociation(AssociationOptions* association, OptionBinder* b) {
          "The nearest neighbour may be this many adaptive thresholds away.");
   b->Add("association.reassociate_distance_m", association->reassociate_distance_m,
          Range<double>{0.0, 10.0},
-         "A point keeps its plane until it has moved by more than this since the look-up.");
+         "A point keeps its plane until it has moved by more than this since the look-up, times "
+         "the ratio of the level that it comes from.");
 }
 
 }  // namespace trajlo
