@@ -30,7 +30,9 @@ SegmentAssociation::Counts SegmentAssociation::Associate(const std::vector<Segme
       if (stands && (p_world - entry.looked_up_at).norm() <= entry.keep_m) continue;
       entry.looked_up_at = p_world;
       ++chunk_searched_[chunk];
-      const bool found = map.FindPlane(p_world, options.plane, reach_m, &entry.plane);
+      const Eigen::Vector3d sensor_world = to_world(points[i].alpha, Eigen::Vector3d::Zero());
+      const Eigen::Vector3d ray_world = (p_world - sensor_world).normalized();
+      const bool found = map.FindPlane(p_world, ray_world, options.plane, reach_m, &entry.plane);
       entry.state = found ? Entry::State::kPlane : Entry::State::kNone;
       entry.keep_m =
           options.reassociate_distance_m * (found ? entry.plane.scale : map.coarsest_scale());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/map/map_pyramid.h"
 
+#include <cmath>
+
 namespace trajlo {
 
 MapPyramid::MapPyramid(const MapPyramidOptions& options) {
@@ -29,19 +31,19 @@ void MapPyramid::RemoveFar(const Eigen::Vector3d& center_world) {
   for (Level& level : levels_) level.map->RemoveFar(center_world);
 }
 
-bool MapPyramid::FindPlane(const Eigen::Vector3d& query_world, const PlaneFitOptions& options,
-                           double reach_m, Plane* plane) const {
+bool MapPyramid::FindPlane(const Eigen::Vector3d& query_world, const Eigen::Vector3d& ray_world,
+                           const PlaneFitOptions& options, double reach_m, Plane* plane) const {
   Neighbors neighbors;
   for (const Level& level : levels_) {
     level.map->Nearest(query_world, options.neighbors, options.min_neighbors, &neighbors);
     if (neighbors.count < options.min_neighbors) continue;
     const double reach = reach_m * level.scale;
     if (neighbors.squared_distance[0] > reach * reach) continue;
-    if (FitPlane(neighbors, options, level.spacing_m, plane)) {
-      plane->weight /= level.scale;
-      plane->scale = level.scale;
-      return true;
-    }
+    if (!FitPlane(neighbors, options, level.spacing_m, plane)) continue;
+    if (std::abs(plane->normal_world.dot(ray_world)) < options.min_incidence_sine) continue;
+    plane->weight /= level.scale;
+    plane->scale = level.scale;
+    return true;
   }
   return false;
 }

@@ -18,8 +18,8 @@ struct MapPyramidOptions {
 };
 
 /// The same points at several resolutions. A plane is sought in the finest map first, where points
-/// are dense and planes are small and exact; where it has none (far away, on sparse rings, in a part
-/// of the world just entered) the next coarser map answers, whose voxels reach farther.
+/// are dense and planes are small and exact; where it has none (far away, on sparse rings, in a
+/// part of the world just entered) the next coarser map answers, whose voxels reach farther.
 class MapPyramid {
  public:
   explicit MapPyramid(const MapPyramidOptions& options);
@@ -28,9 +28,10 @@ class MapPyramid {
   void RemoveFar(const Eigen::Vector3d& center_world);
 
   /// The plane at `query_world` from the finest level that has one whose nearest point is within
-  /// `reach_m` times the level's ratio; its weight is divided by that ratio.
-  bool FindPlane(const Eigen::Vector3d& query_world, const PlaneFitOptions& options, double reach_m,
-                 Plane* plane) const;
+  /// `reach_m` times the level's ratio, and which `ray_world`, the unit vector from the sensor to
+  /// the query, does not merely graze; its weight is divided by that ratio.
+  bool FindPlane(const Eigen::Vector3d& query_world, const Eigen::Vector3d& ray_world,
+                 const PlaneFitOptions& options, double reach_m, Plane* plane) const;
 
   const PointMap& finest() const { return *levels_.front().map; }
   /// Voxels of the coarsest level in those of the finest.

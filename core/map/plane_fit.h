@@ -15,10 +15,15 @@ struct PlaneFitOptions {
   int min_neighbors = 5;
   /// Upper bound of l0: how thick a plane may be.
   double max_thickness_m = 0.15;
-  /// Lower bound of l1, in spacings of the map's points: neighbours on one scan line have no normal.
+  /// Lower bound of l1, in spacings of the map's points: neighbours on one scan line have no
+  /// normal.
   double min_width_in_spacings = 0.53;
   /// Upper bound of l0 / l1.
   double max_flatness = 0.5;
+  /// Lower bound of the sine of the angle between a plane and the ray to the point that asks for
+  /// it. Neighbours on one scan line that is ragged (a facade with recesses, leaves) span the cone
+  /// of that beam: a plane through the sensor, which would hold the sensor where it was.
+  double min_incidence_sine = 0.1;
   /// A plane of this thickness weighs half as much as a thin one.
   double half_weight_thickness_m = 0.05;
 };

@@ -36,7 +36,7 @@ void FindPlane(benchmark::State& state, MapKind kind, int levels) {
   std::size_t found = 0;
   Plane plane;
   for (auto _ : state) {
-    found += map.FindPlane(queries[i], {}, 1.0, &plane);
+    found += map.FindPlane(queries[i], queries[i].normalized(), {}, 1.0, &plane);
     benchmark::DoNotOptimize(plane);
     i = (i + 1) % queries.size();
   }

@@ -44,6 +44,9 @@ void BindAssociation(AssociationOptions* association, OptionBinder* b) {
          "the map's points: neighbours on one scan line have no normal.");
   b->Add("association.plane.max_flatness", plane.max_flatness, Range<double>{1e-3, 1.0},
          "Upper bound of the ratio of the first to the second.");
+  b->Add("association.plane.min_incidence_sine", plane.min_incidence_sine, Range<double>{0.0, 0.9},
+         "Lower bound of the sine of the angle between the plane and the ray to the point: a plane "
+         "through the sensor is a scan line, not a surface.");
   b->Add("association.plane.half_weight_thickness_m", plane.half_weight_thickness_m,
          Range<double>{1e-4, 100.0},
          "A plane of this thickness weighs half as much as a thin one.");

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/map/kd_tree_map.h"
+#include "core/map/map_pyramid.h"
 #include "core/map/voxel_hash_map.h"
 #include "tests/support/random_poses.h"
 
@@ -207,6 +208,25 @@ TEST_P(EveryMap, KeepsPointsOfAVoxelApart) {
       }
     }
   }
+}
+
+TEST(MapPyramid, TakesNoPlaneThatItsRayMerelyGrazes) {
+  // A level patch: the ground to who looks down on it, a ragged scan line to who looks along it.
+  testing::Random random(13);
+  std::vector<Eigen::Vector3d> patch;
+  for (int i = 0; i < 400; ++i) {
+    patch.emplace_back(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Gaussian(0.005));
+  }
+  MapPyramid map({});
+  map.Insert(patch);
+  PlaneFitOptions options;
+  Plane plane;
+  const Eigen::Vector3d down(0.8, 0.0, -0.6), along(0.999, 0.0, -0.0447);
+  ASSERT_TRUE(map.FindPlane({0, 0, 0}, down, options, 1.0, &plane));
+  EXPECT_GT(std::abs(plane.normal_world.z()), 0.95);
+  EXPECT_FALSE(map.FindPlane({0, 0, 0}, along, options, 1.0, &plane));
+  options.min_incidence_sine = 0.0;
+  EXPECT_TRUE(map.FindPlane({0, 0, 0}, along, options, 1.0, &plane));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryMap,
