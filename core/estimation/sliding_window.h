@@ -37,6 +37,8 @@ class SlidingWindow {
 
   int segments() const { return static_cast<int>(segments_.size()); }
   ControlPose front_pose() const;
+  /// What holds the front pose.
+  const MarginalizationPrior& prior() const { return problem_.prior; }
   /// All of them, oldest first.
   std::vector<ControlPose> poses() const;
 
