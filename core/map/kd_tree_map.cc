@@ -19,8 +19,9 @@ struct KdTreeMap::Index {
       return false;
     }
   };
-  using Tree = nanoflann::KDTreeSingleIndexDynamicAdaptor<
-      nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3>;
+  using Tree =
+      nanoflann::KDTreeSingleIndexDynamicAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud,
+                                                 3>;
 
   Cloud cloud;
   Tree tree{3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10)};

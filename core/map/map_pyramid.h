@@ -17,19 +17,25 @@ struct MapPyramidOptions {
   double level_ratio = 2.0;
 };
 
-/// The same points at several resolutions. A plane is sought in the finest map first, where points
-/// are dense and planes are small and exact; where it has none (far away, on sparse rings, in a
-/// part of the world just entered) the next coarser map answers, whose voxels reach farther.
+/// The same points at several resolutions. Where a coarse map has a plane that is wide and thin (a
+/// wall, a floor), that one is taken: the normal of a plane is as exact as it is wide, and a wide
+/// one spans several scan lines. Elsewhere the finest map that has a plane answers, where points
+/// are dense and planes small; where it has none (far away, on sparse rings, in a part of the world
+/// just entered) the next coarser one, whose voxels reach farther.
 class MapPyramid {
  public:
+  static constexpr int kMaxLevels = 8;
+
+  /// Throws std::invalid_argument unless there are 1 to kMaxLevels levels.
   explicit MapPyramid(const MapPyramidOptions& options);
 
   void Insert(const std::vector<Eigen::Vector3d>& points_world);
   void RemoveFar(const Eigen::Vector3d& center_world);
 
-  /// The plane at `query_world` from the finest level that has one whose nearest point is within
-  /// `reach_m` times the level's ratio, and which `ray_world`, the unit vector from the sensor to
-  /// the query, does not merely graze; its weight is divided by that ratio.
+  /// The plane at `query_world`; its nearest point is within `reach_m` times the level's ratio.
+  /// `ray_world` is the unit vector from the sensor to the query: a plane that it merely grazes is
+  /// taken only where there is no other. A plane that is not wide and thin has its weight divided
+  /// by the level's ratio.
   bool FindPlane(const Eigen::Vector3d& query_world, const Eigen::Vector3d& ray_world,
                  const PlaneFitOptions& options, double reach_m, Plane* plane) const;
 
@@ -45,6 +51,8 @@ class MapPyramid {
     double scale;
     double spacing_m;
   };
+  static bool FitAt(const Level& level, const Eigen::Vector3d& query_world,
+                    const PlaneFitOptions& options, double reach_m, Plane* plane);
   std::vector<Level> levels_;
 };
 

@@ -36,7 +36,8 @@ bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, double
   eigen.computeDirect(covariance);
   plane->thickness_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
   plane->width_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
-  if (plane->width_m < options.min_width_in_spacings * spacing_m || plane->thickness_m > options.max_thickness_m ||
+  if (plane->width_m < options.min_width_in_spacings * spacing_m ||
+      plane->thickness_m > options.max_thickness_m ||
       plane->thickness_m > options.max_flatness * plane->width_m) {
     return false;
   }

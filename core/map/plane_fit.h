@@ -20,10 +20,14 @@ struct PlaneFitOptions {
   double min_width_in_spacings = 0.53;
   /// Upper bound of l0 / l1.
   double max_flatness = 0.5;
-  /// Lower bound of the sine of the angle between a plane and the ray to the point that asks for
-  /// it. Neighbours on one scan line that is ragged (a facade with recesses, leaves) span the cone
-  /// of that beam: a plane through the sensor, which would hold the sensor where it was.
+  /// Planes that meet the ray to the point which asks at a smaller angle than this sine's are taken
+  /// only where there is no other. Neighbours on one scan line that is ragged (a facade with
+  /// recesses, leaves) span the cone of that beam: a plane through the sensor, which would hold the
+  /// sensor where it was.
   double min_incidence_sine = 0.1;
+  /// Upper bound of l0 / l1 for a plane of a coarser level that is preferred to those of the finer
+  /// ones; it must be thinner than `half_weight_thickness_m`, too. 0 never prefers one.
+  double max_wide_flatness = 0.1;
   /// A plane of this thickness weighs half as much as a thin one.
   double half_weight_thickness_m = 0.05;
 };

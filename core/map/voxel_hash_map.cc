@@ -9,7 +9,7 @@ namespace trajlo {
 namespace {
 
 /// The voxels that share a face; the opposite of direction d is d ^ 1.
-const Eigen::Vector3i kDirections[6] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0},
+const Eigen::Vector3i kDirections[6] = {{-1, 0, 0}, {1, 0, 0},  {0, -1, 0},
                                         {0, 1, 0},  {0, 0, -1}, {0, 0, 1}};
 
 }  // namespace

@@ -25,7 +25,7 @@ void BindMap(MapPyramidOptions* pyramid, OptionBinder* b) {
   b->Add("map.radius_m", map->radius_m, Range<double>{1.0, 1e4},
          "Voxels farther than this from the sensor are dropped.");
   b->Add("map.levels", pyramid->levels, Range<int>{1, 8},
-         "Maps of growing coarseness, asked in turn until one has a plane; 1 is the paper's map.");
+         "Maps of growing coarseness; 1 is the paper's map.");
   b->Add("map.level_ratio", pyramid->level_ratio, Range<double>{1.1, 10.0},
          "Voxels and spacing grow by this from level to level.");
 }
@@ -45,8 +45,11 @@ void BindAssociation(AssociationOptions* association, OptionBinder* b) {
   b->Add("association.plane.max_flatness", plane.max_flatness, Range<double>{1e-3, 1.0},
          "Upper bound of the ratio of the first to the second.");
   b->Add("association.plane.min_incidence_sine", plane.min_incidence_sine, Range<double>{0.0, 0.9},
-         "Lower bound of the sine of the angle between the plane and the ray to the point: a plane "
-         "through the sensor is a scan line, not a surface.");
+         "Planes that meet the ray to the point at a smaller angle than this sine's are taken only "
+         "where there is no other: a plane through the sensor is mostly a scan line, no surface.");
+  b->Add("association.plane.max_wide_flatness", plane.max_wide_flatness, Range<double>{0.0, 1.0},
+         "A plane of a coarser level that is at most so flat, and thin, is preferred to those of "
+         "the finer ones; 0 never prefers one.");
   b->Add("association.plane.half_weight_thickness_m", plane.half_weight_thickness_m,
          Range<double>{1e-4, 100.0},
          "A plane of this thickness weighs half as much as a thin one.");

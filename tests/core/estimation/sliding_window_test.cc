@@ -27,7 +27,7 @@ TEST(SlidingWindow, AWindowThatIsRevertedLeavesNoPullInThePrior) {
     }
     map.Insert(points);
     ThreadPool threads(1);
-    SlidingWindow window(options, &map, &threads);
+    SlidingWindow window(options, &map, &threads, MakeWindowSolver);
     window.Start(0, SE3(), Vector6d::Zero());
     WindowStatistics statistics;
     for (int k = 0; k < 4; ++k) statistics = window.AddSegment(*segmenter.Next());
