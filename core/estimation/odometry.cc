@@ -25,6 +25,7 @@ class Odometry::Impl {
                    options.adaptive_interval.enabled ? options.adaptive_interval.divisions : 1),
         interval_(options.adaptive_interval, options.segmenter.interval_s),
         map_(options.map),
+        loss_watch_(options.lost),
         window_(options, &map_, &threads_, make_solver) {}
 
   void AddScan(const LidarScan& scan) {
@@ -47,6 +48,7 @@ class Odometry::Impl {
   Segmenter segmenter_;
   SegmentInterval interval_;
   MapPyramid map_;
+  LossWatch loss_watch_;
   SlidingWindow window_;
   Trajectory trajectory_;
   std::function<void(const WindowStatistics&)> callback_;
@@ -104,7 +106,10 @@ class Odometry::Impl {
       statistics.milliseconds_marginalize = marginalize_ms;
       statistics.milliseconds_map = map_ms;
     }
-    WatchForLoss(&statistics);
+    if (const auto lost_since_ns = loss_watch_.Update(statistics)) {
+      statistics.flags |= kFlagLost;
+      if (!lost_at_ns_) lost_at_ns_ = lost_since_ns;
+    }
     if (callback_) callback_(statistics);
   }
 
@@ -169,36 +174,10 @@ class Odometry::Impl {
     map_.Insert(points_world_);
   }
 
-  void WatchForLoss(WindowStatistics* statistics) {
-    const LostOptions& lost = options_.lost;
-    const bool few = statistics->InlierShare() < lost.min_inlier_share;
-    const bool unconverged = statistics->flags & kFlagNotConverged;
-    const bool too_long_few = few_.Lasts(few, statistics->end_ns, lost.max_duration_s);
-    const bool too_long_unconverged =
-        unconverged_.Lasts(unconverged, statistics->end_ns, lost.max_unconverged_s);
-    if (!too_long_few && !too_long_unconverged) return;
-    statistics->flags |= kFlagLost;
-    if (!lost_at_ns_) lost_at_ns_ = too_long_few ? few_.since_ns : unconverged_.since_ns;
-  }
-
-  /// Since when a condition has held without a break.
-  struct Spell {
-    std::optional<std::int64_t> since_ns;
-    bool Lasts(bool holds, std::int64_t now_ns, double longer_than_s) {
-      if (!holds) {
-        since_ns.reset();
-        return false;
-      }
-      if (!since_ns) since_ns = now_ns;
-      return Seconds(now_ns - *since_ns) >= longer_than_s;
-    }
-  };
-
   bool started_ = false;
   std::int64_t windows_ = 0;
   double milliseconds_segment_ = 0.0;
   std::vector<Eigen::Vector3d> points_world_;
-  Spell few_, unconverged_;
 };
 
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)

@@ -6,6 +6,7 @@
 
 #include "core/estimation/adaptive_threshold.h"
 #include "core/estimation/association.h"
+#include "core/estimation/loss_watch.h"
 #include "core/estimation/deskew.h"
 #include "core/estimation/segment_interval.h"
 #include "core/estimation/solver_options.h"
@@ -36,22 +37,6 @@ struct InitializationOptions {
   /// ... or simply more, where it is longer than this: at rest the estimate is off by centimetres,
   /// and a street explains nearly as many points at any speed.
   double clear_motion_m = 0.3;
-};
-
-struct LostOptions {
-  /// The estimator is lost when fewer than this share of the points find a plane ...
-  double min_inlier_share = 0.05;
-  /// ... for longer than this ...
-  double max_duration_s = 1.0;
-  /// ... or when no window converges for longer than this: planes that never settle are not those
-  /// of the scene.
-  double max_unconverged_s = 3.0;
-  /// A solve that moves the newest pose farther than this from its prediction is not believed.
-  double max_correction_m = 3.0;
-  double max_correction_rad = 1.0;
-  /// Below this information per point a direction counts as degenerate (a well-spread scene has
-  /// 0.05 to 0.2).
-  double degenerate_eigenvalue = 0.002;
 };
 
 /// Everything that the estimator can be told, by module.

@@ -14,7 +14,7 @@ enum WindowFlag : unsigned {
   kFlagReverted = 1u << 2,  ///< A solve was not finite or jumped: the prediction stands.
   kFlagNotConverged = 1u << 3,  ///< The rounds ran out before the steps became small.
   kFlagDegenerate = 1u << 4,    ///< A direction is held by smoothness and prior alone.
-  kFlagLost = 1u << 5,          ///< Too few associations for too long.
+  kFlagLost = 1u << 5,          ///< The scene is no longer followed: see LossWatch.
 };
 
 /// One line of windows.csv: what happened in one sliding-window solve.

@@ -32,8 +32,10 @@ void BindEstimation(OdometryOptions* odometry, OptionBinder* b) {
          "The estimator is lost when fewer than this share of the points find a plane ...");
   b->Add("lost.max_duration_s", odometry->lost.max_duration_s, Range<double>{0.0, 1e6},
          "... for longer than this ...");
-  b->Add("lost.max_unconverged_s", odometry->lost.max_unconverged_s, Range<double>{0.0, 1e6},
-         "... or when no window converges for longer than this.");
+  b->Add("lost.convergence_span_s", odometry->lost.convergence_span_s, Range<double>{0.0, 1e6},
+         "... or when of all windows of this time ...");
+  b->Add("lost.max_unconverged_share", odometry->lost.max_unconverged_share,
+         Range<double>{0.0, 1.0}, "... more than this share did not converge.");
   b->Add("lost.max_correction_m", odometry->lost.max_correction_m, Range<double>{1e-3, 1e3},
          "A solve that moves the newest pose farther than this from its prediction ...");
   b->Add("lost.max_correction_rad", odometry->lost.max_correction_rad, Range<double>{1e-3, 10.0},
