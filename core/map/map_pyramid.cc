@@ -9,9 +9,13 @@
 namespace trajlo {
 namespace {
 
-bool IsWideAndThin(const Plane& plane, const PlaneFitOptions& options) {
+/// Whether a plane of a coarser level is flat there, and the query on it.
+bool IsWideAndThin(const Plane& plane, const Eigen::Vector3d& query_world,
+                   const PlaneFitOptions& options) {
+  const double distance_m = std::abs(plane.normal_world.dot(query_world) - plane.offset_m);
   return plane.thickness_m <= options.half_weight_thickness_m &&
-         plane.thickness_m <= options.max_wide_flatness * plane.width_m;
+         plane.thickness_m <= options.max_wide_flatness * plane.width_m &&
+         distance_m <= options.max_wide_distance_in_widths * plane.width_m;
 }
 
 }  // namespace
@@ -70,7 +74,7 @@ bool MapPyramid::FindPlane(const Eigen::Vector3d& query_world, const Eigen::Vect
   const std::size_t searched_first = options.max_wide_flatness > 0.0 ? 1 : count;
   for (std::size_t i = count; i-- > searched_first;) {
     found[i] = FitAt(levels_[i], query_world, options, reach_m, &fits[i]);
-    if (found[i] && IsWideAndThin(fits[i], options) && !is_grazed(fits[i])) {
+    if (found[i] && IsWideAndThin(fits[i], query_world, options) && !is_grazed(fits[i])) {
       *plane = fits[i];
       return true;
     }

@@ -28,6 +28,9 @@ struct PlaneFitOptions {
   /// Upper bound of l0 / l1 for a plane of a coarser level that is preferred to those of the finer
   /// ones; it must be thinner than `half_weight_thickness_m`, too. 0 never prefers one.
   double max_wide_flatness = 0.1;
+  /// Upper bound of the distance from such a plane to the point that asks for it, in l1: farther
+  /// off stands something else, which the coarser levels have no points of (a post before a wall).
+  double max_wide_distance_in_widths = 0.3;
   /// A plane of this thickness weighs half as much as a thin one.
   double half_weight_thickness_m = 0.05;
 };

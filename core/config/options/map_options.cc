@@ -49,7 +49,11 @@ void BindAssociation(AssociationOptions* association, OptionBinder* b) {
          "where there is no other: a plane through the sensor is mostly a scan line, no surface.");
   b->Add("association.plane.max_wide_flatness", plane.max_wide_flatness, Range<double>{0.0, 1.0},
          "A plane of a coarser level that is at most so flat, and thin, is preferred to those of "
-         "the finer ones; 0 never prefers one.");
+         "the finer ones (0: never) ...");
+  b->Add("association.plane.max_wide_distance_in_widths", plane.max_wide_distance_in_widths,
+         Range<double>{0.0, 100.0},
+         "... if the point is no farther from it than this, in the plane's width: a post before a "
+         "wall is not the wall.");
   b->Add("association.plane.half_weight_thickness_m", plane.half_weight_thickness_m,
          Range<double>{1e-4, 100.0},
          "A plane of this thickness weighs half as much as a thin one.");

@@ -126,7 +126,8 @@ TEST(Odometry, CeresAndGaussNewtonGiveTheSameTrajectory) {
     const auto& b = gauss_newton.odometry->trajectory().poses();
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-      EXPECT_LT((a[i].T_world_body.t - b[i].T_world_body.t).norm(), 1e-9) << i;
+      // The last bits differ, and a window hands its rounding on to the next.
+      EXPECT_LT((a[i].T_world_body.t - b[i].T_world_body.t).norm(), 1e-7) << i;
     }
   }
 }

@@ -254,6 +254,30 @@ TEST(MapPyramid, TakesTheFinePlaneWhereTheWideOneIsNotThin) {
   EXPECT_LT(plane.scale, 4.0);
 }
 
+TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
+  std::vector<Eigen::Vector3d> wall_then_post;
+  for (double y = -4.0; y < 4.0; y += 0.05) {
+    for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(5.0, y, z);
+  }
+  // A post of 0.2 m, its face 0.35 m before the wall: the coarser levels have no room for it.
+  for (double y = 1.5; y < 1.71; y += 0.05) {
+    for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(4.65, y, z);
+  }
+  MapPyramid map({});
+  map.Insert(wall_then_post);
+  const Eigen::Vector3d ray(1.0, 0.0, 0.0);
+  Plane plane;
+  ASSERT_TRUE(map.FindPlane({4.66, 1.6, 1.0}, ray, {}, 1.0, &plane));
+  EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 4.65, 0.01);
+  PlaneFitOptions anywhere;
+  anywhere.max_wide_distance_in_widths = 100.0;
+  ASSERT_TRUE(map.FindPlane({4.66, 1.6, 1.0}, ray, anywhere, 1.0, &plane));
+  EXPECT_GT(plane.offset_m * plane.normal_world.x(), 4.9);
+  ASSERT_TRUE(map.FindPlane({5.01, -2.0, 1.0}, ray, {}, 1.0, &plane));
+  EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 5.0, 1e-6);
+  EXPECT_GT(plane.scale, 1.0);
+}
+
 TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
   // One scan line over a facade with recesses: level, along the ray. The facade itself, x = 5, is
   // sampled sparsely around it.
