@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/estimation/loss_watch.h"
 
+#include <algorithm>
+
 namespace trajlo {
 namespace {
 
@@ -27,16 +29,22 @@ bool LossWatch::TooFewInliers(const WindowStatistics& window) {
 
 bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   const bool is_settled = (window.flags & (kFlagNotConverged | kFlagReverted)) == 0;
-  recent_.push_back({window.end_ns, is_settled});
+  recent_.push_back({window.end_ns, is_settled, window.threshold_m >= full_threshold_m_});
   unsettled_ += is_settled ? 0 : 1;
+  full_threshold_ += recent_.back().has_full_threshold ? 1 : 0;
   const std::int64_t begin_ns = window.end_ns - Nanoseconds(options_.convergence_span_s);
   while (recent_.front().end_ns < begin_ns) {
     unsettled_ -= recent_.front().is_settled ? 0 : 1;
+    full_threshold_ -= recent_.front().has_full_threshold ? 1 : 0;
     recent_.pop_front();
     span_is_full_ = true;
   }
-  return span_is_full_ && static_cast<double>(unsettled_) >
-                              options_.max_unconverged_share * static_cast<double>(recent_.size());
+  const double max_share = full_threshold_ == recent_.size()
+                               ? std::min(options_.max_unconverged_share,
+                                          options_.max_unconverged_share_at_full_threshold)
+                               : options_.max_unconverged_share;
+  const auto windows = static_cast<double>(recent_.size());
+  return span_is_full_ && static_cast<double>(unsettled_) > max_share * windows;
 }
 
 }  // namespace trajlo

@@ -25,7 +25,7 @@ class Odometry::Impl {
                    options.adaptive_interval.enabled ? options.adaptive_interval.divisions : 1),
         interval_(options.adaptive_interval, options.segmenter.interval_s),
         map_(options.map),
-        loss_watch_(options.lost),
+        loss_watch_(options.lost, options.threshold.max_m),
         window_(options, &map_, &threads_, make_solver) {}
 
   void AddScan(const LidarScan& scan) {
