@@ -35,7 +35,11 @@ void BindEstimation(OdometryOptions* odometry, OptionBinder* b) {
   b->Add("lost.convergence_span_s", odometry->lost.convergence_span_s, Range<double>{0.0, 1e6},
          "... or when of all windows of this time ...");
   b->Add("lost.max_unconverged_share", odometry->lost.max_unconverged_share,
-         Range<double>{0.0, 1.0}, "... more than this share did not converge.");
+         Range<double>{0.0, 1.0}, "... more than this share did not converge ...");
+  b->Add("lost.max_unconverged_share_at_full_threshold",
+         odometry->lost.max_unconverged_share_at_full_threshold, Range<double>{0.0, 1.0},
+         "... or more than this share, if all that time the adaptive threshold was at its upper "
+         "bound.");
   b->Add("lost.max_correction_m", odometry->lost.max_correction_m, Range<double>{1e-3, 1e3},
          "A solve that moves the newest pose farther than this from its prediction ...");
   b->Add("lost.max_correction_rad", odometry->lost.max_correction_rad, Range<double>{1e-3, 10.0},
