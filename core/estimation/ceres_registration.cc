@@ -12,7 +12,9 @@
 
 namespace trajlo {
 
-PoseBlocks::PoseBlocks(const std::vector<SE3>& poses) : blocks_(poses.size()) {
+PoseBlocks::PoseBlocks(const std::vector<SE3>& poses) : blocks_(poses.size()) { SetPoses(poses); }
+
+void PoseBlocks::SetPoses(const std::vector<SE3>& poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) std::copy_n(poses[i].data(), 7, blocks_[i].data());
 }
 
@@ -40,11 +42,12 @@ PrepareRegistration::PrepareRegistration(const WindowProblem* problem, const Sol
 /// small that it is the last one, nobody wants them, and the cost is enough.
 void PrepareRegistration::PrepareForEvaluation(bool, bool new_evaluation_point) {
   if (!new_evaluation_point) return;
-  const std::vector<SE3> poses = blocks_->Poses();
+  poses_ = blocks_->Poses();
+  if (options_.ceres.registration != RegistrationForm::kPrepared) return;
   is_linearized_ = is_first_ || options_.iterations_per_round > 1 ||
-                   MeasureStep(problem_->poses, poses).IsSmall(options_);
+                   MeasureStep(problem_->poses, poses_).IsSmall(options_);
   is_first_ = false;
-  evaluator_->Evaluate(*problem_, poses, is_linearized_, equations_);
+  evaluator_->Evaluate(*problem_, poses_, is_linearized_, equations_);
 }
 
 void AddRegistration(const WindowProblem& problem, RegistrationForm form,

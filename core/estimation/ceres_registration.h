@@ -19,12 +19,15 @@ class PoseBlocks {
 
   double* block(int k) { return blocks_[static_cast<std::size_t>(k)].data(); }
   std::vector<SE3> Poses() const;
+  void SetPoses(const std::vector<SE3>& poses);
 
  private:
   std::vector<std::array<double, 7>> blocks_;
 };
 
-/// Computes the registration of all segments, in parallel, before Ceres asks the blocks for it.
+/// Sees each point at which Ceres is about to evaluate the window. For the prepared form it
+/// computes the registration of all segments there, in parallel, before Ceres asks the blocks for
+/// it.
 class PrepareRegistration final : public ceres::EvaluationCallback {
  public:
   PrepareRegistration(const WindowProblem* problem, const SolverOptions& options,
@@ -35,6 +38,8 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
 
   /// Whether the last equations hold more than the cost.
   bool is_linearized() const { return is_linearized_; }
+  /// The poses last evaluated, whether or not Ceres took the step to them.
+  const std::vector<SE3>& evaluated_poses() const { return poses_; }
   const RegistrationNormalEquations* equations(int k) const { return &(*equations_)[k]; }
 
  private:
@@ -43,6 +48,7 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
   const PoseBlocks* blocks_;
   RegistrationEvaluator* evaluator_;
   std::vector<RegistrationNormalEquations>* equations_;
+  std::vector<SE3> poses_;
   bool is_first_ = true;
   bool is_linearized_ = false;
 };

@@ -4,6 +4,7 @@
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/estimation/ceres_registration.h"
@@ -17,42 +18,70 @@ namespace {
 /// such a step is taken, and its own count includes steps that it rejects.)
 class StopByGaussNewtonRule final : public ceres::IterationCallback {
  public:
-  StopByGaussNewtonRule(const SolverOptions& options, const PoseBlocks* state)
-      : options_(options), state_(state), before_(state->Poses()) {}
+  StopByGaussNewtonRule(const SolverOptions& options, bool first_estimate_jacobians,
+                        PoseBlocks* state, const PrepareRegistration* prepare)
+      : options_(options),
+        uphill_tolerance_(first_estimate_jacobians ? kFirstEstimateError : kRoundOff),
+        state_(state),
+        prepare_(prepare),
+        before_(state->Poses()) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
-    if (iteration.iteration == 0) return ceres::SOLVER_CONTINUE;
-    if (!iteration.step_is_successful) {
-      if (!IsRoundOff(iteration)) {
-        ++rejected_steps_;
-        return ceres::SOLVER_CONTINUE;
-      }
-      ++steps_taken_;
-      return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+    if (iteration.iteration == 0) {
+      if (costs_.empty()) costs_.push_back(iteration.cost);
+      return ceres::SOLVER_CONTINUE;
     }
-    ++steps_taken_;
-    std::vector<SE3> now = state_->Poses();
-    const StepSize step = MeasureStep(before_, now);
-    before_ = std::move(now);
-    return steps_taken_ >= options_.iterations_per_round || step.IsSmall(options_)
-               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-               : ceres::SOLVER_CONTINUE;
+    last_was_taken_ = iteration.step_is_successful;
+    if (last_was_taken_) return Take(state_->Poses(), iteration.cost);
+    if (std::abs(iteration.cost_change) > uphill_tolerance_ * iteration.cost) {
+      ++rejected_steps_;
+      return ceres::SOLVER_CONTINUE;
+    }
+    taken_uphill_ = prepare_->evaluated_poses();
+    Take(taken_uphill_, iteration.cost);
+    return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
-  int steps_taken() const { return steps_taken_; }
+  /// After Ceres ended: puts the state to the step that Ceres rejected and this rule takes, if that
+  /// was the end. Returns whether Ceres should go on from there.
+  bool TakeUphillStep() {
+    if (taken_uphill_.empty()) return false;
+    state_->SetPoses(taken_uphill_);
+    taken_uphill_.clear();
+    last_was_taken_ = true;
+    return !is_done_;
+  }
+
+  int steps_taken() const { return std::max(0, static_cast<int>(costs_.size()) - 1); }
   int rejected_steps() const { return rejected_steps_; }
+  bool last_was_taken() const { return last_was_taken_; }
+  /// At the start and after each step that was taken.
+  const std::vector<double>& costs() const { return costs_; }
 
  private:
   /// At the optimum a step changes the cost by its last bits, up or down.
-  static bool IsRoundOff(const ceres::IterationSummary& iteration) {
-    return std::abs(iteration.cost_change) < 1e-12 * iteration.cost;
+  static constexpr double kRoundOff = 1e-12;
+  /// First-estimate Jacobians are not the derivative of the cost. Near the solution their step may
+  /// raise it, however short it is made: by 3e-6 of it at most, as far as was seen.
+  static constexpr double kFirstEstimateError = 1e-4;
+
+  ceres::CallbackReturnType Take(const std::vector<SE3>& now, double cost) {
+    costs_.push_back(cost);
+    is_done_ = steps_taken() >= options_.iterations_per_round ||
+               MeasureStep(before_, now).IsSmall(options_);
+    before_ = now;
+    return is_done_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
   const SolverOptions& options_;
-  const PoseBlocks* state_;
-  std::vector<SE3> before_;
-  int steps_taken_ = 0;
+  const double uphill_tolerance_;
+  PoseBlocks* state_;
+  const PrepareRegistration* prepare_;
+  std::vector<SE3> before_, taken_uphill_;
+  std::vector<double> costs_;
   int rejected_steps_ = 0;
+  bool last_was_taken_ = false;
+  bool is_done_ = false;
 };
 
 /// From no damping to a step that is short enough, Levenberg-Marquardt needs about so many tries.
@@ -99,7 +128,6 @@ CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
     : options_(options), solver_options_(MakeSolverOptions(options)), evaluator_(threads) {}
 
 SolveSummary CeresSolver::Solve(WindowProblem* problem) {
-  const bool is_prepared = options_.ceres.registration == RegistrationForm::kPrepared;
   PoseBlocks blocks(problem->poses);
   PrepareRegistration prepare(problem, options_, &blocks, &evaluator_, &registration_);
   SE3Manifold manifold;
@@ -108,7 +136,7 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
   problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   problem_options.disable_all_safety_checks = true;
-  if (is_prepared) problem_options.evaluation_callback = &prepare;
+  problem_options.evaluation_callback = &prepare;
   ceres::Problem ceres_problem(problem_options);
   for (std::size_t k = 0; k < problem->poses.size(); ++k) {
     ceres_problem.AddParameterBlock(blocks.block(static_cast<int>(k)), 7, &manifold);
@@ -123,21 +151,21 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
       new MarginalizationPriorCost(problem->prior, problem->first_estimate_jacobians), nullptr,
       blocks.block(0));
 
-  StopByGaussNewtonRule stop(options_, &blocks);
+  StopByGaussNewtonRule stop(options_, problem->first_estimate_jacobians, &blocks, &prepare);
   ceres::Solver::Options solver_options = solver_options_;
   solver_options.callbacks = {&stop};
-  ceres::Solver::Summary ceres_summary;
-  ceres::Solve(solver_options, &ceres_problem, &ceres_summary);
-
   SolveSummary summary;
+  ceres::Solver::Summary ceres_summary;
+  do {
+    ceres::Solve(solver_options, &ceres_problem, &ceres_summary);
+    summary.evaluate_s += ceres_summary.residual_evaluation_time_in_seconds +
+                          ceres_summary.jacobian_evaluation_time_in_seconds;
+    summary.linear_solve_s += ceres_summary.linear_solver_time_in_seconds;
+  } while (stop.TakeUphillStep());
+
   summary.iterations = stop.steps_taken();
   summary.rejected_steps = stop.rejected_steps();
-  for (const ceres::IterationSummary& iteration : ceres_summary.iterations) {
-    if (iteration.step_is_successful) summary.costs.push_back(iteration.cost);
-  }
-  summary.evaluate_s = ceres_summary.residual_evaluation_time_in_seconds +
-                       ceres_summary.jacobian_evaluation_time_in_seconds;
-  summary.linear_solve_s = ceres_summary.linear_solver_time_in_seconds;
+  summary.costs = stop.costs();
   const std::vector<SE3> solution = blocks.Poses();
   for (const SE3& pose : solution) summary.finite = summary.finite && pose.IsFinite();
   summary.finite = summary.finite && ceres_summary.IsSolutionUsable();
@@ -145,13 +173,10 @@ SolveSummary CeresSolver::Solve(WindowProblem* problem) {
   summary.step = MeasureStep(problem->poses, solution);
   problem->poses = solution;
   // After a rejected step the last evaluation was elsewhere.
-  if (is_prepared && prepare.is_linearized() &&
-      ceres_summary.iterations.back().step_is_successful) {
-    summary.registration = &registration_;
-  }
+  if (prepare.is_linearized() && stop.last_was_taken()) summary.registration = &registration_;
 
   summary.cost = CostWithoutRegistration(*problem);
-  summary.cost.registration = ceres_summary.final_cost - summary.cost.Total();
+  summary.cost.registration = summary.costs.back() - summary.cost.Total();
   return summary;
 }
 

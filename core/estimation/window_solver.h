@@ -23,8 +23,8 @@ StepSize MeasureStep(const std::vector<SE3>& start, const std::vector<SE3>& end)
 
 struct SolveSummary {
   int iterations = 0;  ///< Steps that were taken.
-  int rejected_steps =
-      0;               ///< Steps that would have raised the cost; Gauss-Newton takes those, too.
+  /// Steps that Ceres did not take because they raise the cost; Gauss-Newton takes those, too.
+  int rejected_steps = 0;
   WindowCost cost;     ///< At the solution for Ceres, at the last linearisation for Gauss-Newton.
   StepSize step;       ///< From start to solution.
   bool finite = true;  ///< False: the poses are those of the start.

@@ -140,6 +140,31 @@ TEST(WindowSolver, FirstEstimateJacobiansGiveTheSameStepInEveryAnalyticForm) {
   EXPECT_LT(LargestDifference(solve(RegistrationForm::kPoint), expected), 1e-10);
 }
 
+/// Where the state is far from the linearisation point, the cost rises on the last steps to the
+/// point where the gradient by first-estimate Jacobians vanishes.
+TEST(WindowSolver, WithFirstEstimateJacobiansCeresEndsWhereGaussNewtonEnds) {
+  for (RegistrationForm form : {RegistrationForm::kPrepared, RegistrationForm::kCondensed}) {
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+      const auto solve = [&](SolverKind kind, bool first_estimate) {
+        TestWindow window(seed);
+        Random random(seed);
+        SE3& linearized = window.problem.prior.linearization_point;
+        linearized = Plus(linearized, random.Tangent(0.01, 0.02));
+        window.problem.first_estimate_jacobians = first_estimate;
+        SolverOptions options = Converging(kind);
+        options.ceres.registration = form;
+        ThreadPool threads(1);
+        const SolveSummary summary = MakeWindowSolver(options, &threads)->Solve(&window.problem);
+        EXPECT_EQ(summary.rejected_steps, 0);
+        return window.problem.poses;
+      };
+      const auto expected = solve(SolverKind::kGaussNewton, true);
+      EXPECT_LT(LargestDifference(solve(SolverKind::kCeres, true), expected), 1e-9) << seed;
+      EXPECT_GT(LargestDifference(solve(SolverKind::kCeres, false), expected), 1e-7) << seed;
+    }
+  }
+}
+
 TEST(WindowSolver, TheCovarianceOfTheFirstPoseIsThatOfCeres) {
   TestWindow window(16);
   ThreadPool threads(1);
