@@ -23,6 +23,7 @@ class Item:
     topics: tuple = ()        # of a bag: (name, type) that it must have
     holds: str = ""           # of a folder: a pattern of which there must be one
     needed: bool = True       # false: said, but not missed
+    fits: object = None       # called with what was found; raises Unfit where it is not whole
 
 
 class Unfit(Exception):
@@ -56,6 +57,8 @@ def check(path, item, programs):
         raise Unfit(f"{path} is empty")
     if item.topics:
         check_topics(path, item.topics, programs)
+    if item.fits is not None:
+        item.fits(path)
 
 
 def check_topics(path, wanted, programs):
@@ -107,8 +110,8 @@ def extract_poses(bag, topic, place, programs):
         raise Unfit(process.stderr.strip())
 
 
-def report(ok, text):
-    print(f"  {'ok      ' if ok else 'MISSING '}{text}")
+def report(word, text):
+    print(f"  {word:8}{text}")
 
 
 def lay_out(items, downloads, data, programs, after=None):
@@ -117,10 +120,10 @@ def lay_out(items, downloads, data, programs, after=None):
     for item in items:
         path = find(downloads, item)
         if path is None:
-            if item.needed:
-                missing += 1
-            report(False, f"{item.place}: no {' or '.join(item.patterns)}"
-                          f"{'' if item.needed else ' (can be done without)'}")
+            missing += item.needed
+            report("MISSING" if item.needed else "without",
+                   f"{item.place}: no {' or '.join(item.patterns)}"
+                   f"{'' if item.needed else ' (can be done without)'}")
             continue
         try:
             check(path, item, programs)
@@ -130,10 +133,10 @@ def lay_out(items, downloads, data, programs, after=None):
                     after(item, path, data / item.place, programs)
         except Unfit as error:
             missing += 1
-            report(False, f"{item.place}: {error}")
+            report("UNFIT", f"{item.place}: {error}")
             continue
         found += 1
-        report(True, f"{item.place} <- {path}")
+        report("ok", f"{item.place} <- {path}")
     if found == 0:
         return 2
     return 3 if missing else 0

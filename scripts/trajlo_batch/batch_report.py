@@ -16,14 +16,14 @@ FIGURES = {"trajectory": "truth and estimate in three planes", "over_time": "ove
 
 
 def make_tables(suite, rows):
-    """The suite's own tables, and one for each published table that it is compared with."""
-    found = [("table", tables.suite_table(suite, rows)),
-             ("speed", tables.speed_table(suite, rows))]
+    """One for each published table that the suite is compared with, and the suite's own."""
+    found = []
     for path in suite.published:
         published = read_published(ROOT / path)
         name = path.rpartition("/")[2].removesuffix(".yaml")
         found.append((name, tables.compared_table(suite, rows, published)))
-    return found
+    return found + [("table", tables.suite_table(suite, rows)),
+                    ("speed", tables.speed_table(suite, rows))]
 
 
 def write_tables(output, found):
@@ -83,6 +83,7 @@ def write_report(plan, theme_name="light"):
     text = page.render(
         "batch.html", theme, title=suite.title, suite=suite, summary=summary(rows),
         tables=[table for _, table in found], count=len(rows), runs=ended, anchor=anchor,
-        heading=table_formats.heading, missing=plan.missing, programs=programs)
+        heading=table_formats.heading, shown=table_formats.shown, good=tables.GOOD,
+        missing=plan.missing, programs=programs)
     write_atomically(output / "report.html", text)
     return rows

@@ -4,31 +4,36 @@ import csv
 import io
 
 
-def heading(line):
-    label = f"{line.label} *" if line.ours else line.label
+def heading(table, line):
+    """Who made a line of a table: ours have a star where those of others stand beside them."""
+    label = f"{line.label} *" if line.ours and not all(item.ours for item in table.lines) \
+        else line.label
     return f"{label} ({line.sensors})" if line.sensors else label
+
+
+def shown(cell):
+    """For readers; programs take the x."""
+    return cell.text.replace("x", "×")
 
 
 def grid(table, show_cell, show_text):
     """The table as rows of texts, the heading first."""
     if table.transposed:
-        rows = [["sequence", *(show_text(line.label) for line in table.lines)]]
+        rows = [["sequence", *(show_text(heading(table, line)) for line in table.lines)]]
         for index, column in enumerate(table.columns):
             rows.append([show_text(column), *(show_cell(line.cells[index])
                                               for line in table.lines)])
         return rows
     several = len({line.category for line in table.lines}) > 1
-    published = not all(line.ours for line in table.lines)
     rows = [[*(["category"] if several else []), "approach", *map(show_text, table.columns)]]
     for line in table.lines:
-        label = heading(line) if published else line.label
-        rows.append([*([line.category] if several else []), show_text(label),
+        rows.append([*([line.category] if several else []), show_text(heading(table, line)),
                      *map(show_cell, line.cells)])
     return rows
 
 
 def markdown_cell(cell):
-    text = f"<u>{cell.text}</u>" if cell.category_best else cell.text
+    text = f"<u>{shown(cell)}</u>" if cell.category_best else shown(cell)
     return f"**{text}**" if cell.best else text
 
 
@@ -51,15 +56,16 @@ def latex_text(text):
 
 
 def latex_cell(cell):
-    text = latex_text(cell.text)
+    text = latex_text(shown(cell))
     text = rf"\underline{{{text}}}" if cell.category_best else text
     return rf"\textbf{{{text}}}" if cell.best else text
 
 
 def to_latex(table):
-    """A floating table for the booktabs package."""
+    """A floating table for the packages booktabs and graphicx."""
     rows = grid(table, latex_cell, latex_text)
-    lines = [r"\begin{table*}[t]", r"\centering", rf"\caption{{{latex_text(table.caption)}}}",
+    lines = [r"% \usepackage{booktabs, graphicx}", r"\begin{table*}[t]", r"\centering",
+             rf"\caption{{{latex_text(table.caption)}}}",
              r"\resizebox{\textwidth}{!}{",
              rf"\begin{{tabular}}{{@{{}}l{'c' * (len(rows[0]) - 1)}@{{}}}}", r"\toprule"]
     for index, row in enumerate(rows):

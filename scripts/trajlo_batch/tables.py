@@ -79,10 +79,14 @@ def result_cell(rows, suite, decimals):
 
 
 def average_cell(cells, decimals):
+    """The mean over all sequences; over some of them it says so, and is not compared."""
     values = [cell.value for cell in cells if cell.text != ABSENT]
     if not values or any(math.isnan(value) for value in values):
         return Cell(ABSENT)
-    return Cell(f"{statistics.fmean(values):.{decimals}f}", statistics.fmean(values))
+    text = f"{statistics.fmean(values):.{decimals}f}"
+    if len(values) < len(cells):
+        return Cell(f"{text} ({len(values)} of {len(cells)})")
+    return Cell(text, statistics.fmean(values))
 
 
 def mark(lines):
@@ -104,7 +108,7 @@ def best_of(cells, attribute):
 
 
 def our_lines(suite, rows, columns, decimals, average=""):
-    lines = []
+    lines, groups = [], {sequence.group for sequence in suite.sequences}
     for configuration in suite.configurations:
         cells = []
         for column in columns:
@@ -113,7 +117,8 @@ def our_lines(suite, rows, columns, decimals, average=""):
             cells.append(result_cell(found, suite, decimals))
         for index, column in enumerate(columns):
             if column == average:
-                cells[index] = average_cell([cell for cell in cells if cell.folder], decimals)
+                cells[index] = average_cell(
+                    [cell for cell, name in zip(cells, columns) if name in groups], decimals)
         lines.append(Line(configuration.label, configuration.category, configuration.sensors,
                           True, cells))
     return lines

@@ -10,6 +10,10 @@ import sys
 import tempfile
 import unittest
 
+import lookalikes
+import numpy as np
+import yaml
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "scripts" / "datasets"
 
@@ -75,6 +79,53 @@ class DatasetsTest(unittest.TestCase):
         self.assertIn("MISSING kitti/sequences/00/velodyne", text)
         self.assertEqual(self.call("kitti", self.downloads, "--into", self.data)[0], 3)
 
+    def test_a_sequence_of_kitti_with_a_scan_too_few_is_unfit(self):
+        self.write("dataset/sequences/03/velodyne/000000.bin")
+        self.write("dataset/sequences/03/times.txt", "0.0\n0.1\n")
+        self.write("dataset/poses/03.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n")
+        code, text = self.call("kitti", self.downloads, "--into", self.data)
+        self.assertEqual(code, 3, text)
+        self.assertIn("has 1 scans, but times.txt beside it has 2 stamps", text)
+        self.assertIn("03.txt has 1 poses, but", text)
+        self.assertFalse((self.data / "kitti/sequences/03/velodyne").exists())
+
+    def test_the_rig_of_hilti_is_written_from_its_calibration(self):
+        self.write("calibration_02.yaml", lookalikes.hilti_calibration())
+        self.call("hilti2021", self.downloads, "--into", self.data)
+        rig = self.data / "hilti2021" / "rig.yaml"
+        ouster, livox = (np.array(lidar["matrix"]) for lidar in
+                         yaml.safe_load(rig.read_text())["sensor"]["T_body_lidar"])
+        np.testing.assert_allclose(ouster, lookalikes.T_IMU_OUSTER[:3], atol=1e-9)
+        np.testing.assert_allclose(livox, lookalikes.transform(*lookalikes.IMU_LIVOX)[:3],
+                                   atol=1e-9)
+        rig.write_text("mine")
+        self.call("hilti2021", self.downloads, "--into", self.data)
+        self.assertEqual(rig.read_text(), "mine")
+
+    def test_a_rig_file_of_ones_own_is_taken_in_place_of_the_calibration(self):
+        self.write("calibration_02.yaml", lookalikes.hilti_calibration())
+        self.write("rig.yaml", "mine")
+        self.call("hilti2021", self.downloads, "--into", self.data)
+        self.assertEqual((self.data / "hilti2021" / "rig.yaml").read_text(), "mine")
+        self.assertEqual((self.downloads / "rig.yaml").read_text(), "mine")
+
+    def test_a_calibration_that_does_not_place_a_lidar_is_unfit(self):
+        text = lookalikes.hilti_calibration()
+        for old, new, complaint in (("livox_frame", "other", "does not say where livox_frame is"),
+                                    ("0.6", "6.0", "are no pose of os_lidar"),
+                                    ("sensors", "cameras", "is not the calibration")):
+            self.write("calibration_02.yaml", text.replace(old, new))
+            code, output = self.call("hilti2021", self.downloads, "--into", self.data)
+            self.assertEqual(code, 2, output)
+            self.assertIn(complaint, output)
+        self.assertFalse((self.data / "hilti2021").exists())
+
+    def test_the_recording_on_the_rope_is_found_by_its_own_name(self):
+        for name in ("pendulum.bag", "outdoor_spinning.bag"):
+            self.write_bag(name, [("/livox/lidar", "livox_ros_driver/CustomMsg")])
+        self.assertEqual(self.call("pointlio", self.downloads, "--into", self.data)[0], 0)
+        self.assertEqual((self.data / "pointlio/indoor_swing.bag").resolve().name, "pendulum.bag")
+
     def test_without_into_nothing_is_written(self):
         self.write("dataset/poses/03.txt")
         self.assertEqual(self.call("kitti", self.downloads)[0], 3)
@@ -122,6 +173,7 @@ class DatasetsTest(unittest.TestCase):
         for suite, script in (("hilti2021", "hilti2021"), ("pointlio", "pointlio")):
             text = (ROOT / "config" / "suites" / f"{suite}.yaml").read_text(encoding="utf-8")
             named = re.findall(r"(?:recording|truth): (\S+)", text)
+            named += re.findall(r"\{data\}/(\S+?)\"", text)
             self.assertTrue(named)
             _, output = self.call(script, self.downloads)
             for place in named:

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Runs a batch through Slurm on this machine alone: starts munged, slurmctld and slurmd with files
-# of their own in a temporary folder, runs two short simulated recordings with
-# `scripts/batch --slurm`, and ends them again. Needs root and Debian's munge, slurmctld, slurmd and
-# slurm-client; exits with 77 (skipped) where they are missing or cannot be started.
+# Runs a batch and an experiment through Slurm on this machine alone: starts munged, slurmctld and
+# slurmd with files of their own in a temporary folder, runs short simulated recordings with
+# `scripts/batch --slurm` and `scripts/experiment --slurm`, and ends them again. Needs root and
+# Debian's munge, slurmctld, slurmd and slurm-client; exits with 77 (skipped) where they are missing
+# or cannot be started.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 build="${TRAJLO_BUILD_DIR:-$root/build}"
@@ -101,4 +102,25 @@ logs=("$folder"/out/slurm/*.log)
 [[ ${#finished[@]} -eq 2 ]] || { echo "${#finished[@]} of 2 runs have ended" >&2; exit 1; }
 # A recording, a run, an evaluation and a page of each: all of them were jobs of Slurm.
 [[ ${#logs[@]} -eq 8 ]] || { echo "${#logs[@]} of 8 jobs went through Slurm" >&2; exit 1; }
-echo "slurm_one_node.sh: ${#logs[@]} jobs, ${#finished[@]} runs"
+
+cat >"$folder/experiment.yaml" <<'EXPERIMENT'
+title: Two windows through Slurm
+design: {kind: grid}
+vary:
+  window.segments: [2, 4]
+defaults: {duration_s: 2, seeds: [1]}
+sequences:
+  - simulate: hall_os1_16
+EXPERIMENT
+"$root/scripts/experiment" "$folder/experiment.yaml" --output "$folder/sweep" --build "$build" \
+  --slurm -j 4 --sbatch=--partition=all ||
+  { tail -n 40 "$folder/sweep/snakemake.log" >&2; exit 1; }
+rows="$(grep -c ',ok,' "$folder/sweep/results.csv" || true)"
+[[ "$rows" -eq 2 ]] || { echo "$rows of 2 rows are ok" >&2; exit 1; }
+[[ -s "$folder/sweep/report.html" ]] || { echo "the experiment has no page" >&2; exit 1; }
+# A recording, and a run and an evaluation of each row.
+sweep_logs=("$folder"/sweep/slurm/*.log)
+[[ ${#sweep_logs[@]} -eq 5 ]] ||
+  { echo "${#sweep_logs[@]} of 5 jobs of the experiment went through Slurm" >&2; exit 1; }
+echo "slurm_one_node.sh: $((${#logs[@]} + ${#sweep_logs[@]})) jobs," \
+  "${#finished[@]} runs of a batch, $rows of an experiment"

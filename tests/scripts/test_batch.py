@@ -130,7 +130,7 @@ class BatchTest(FolderTest):
         self.assertEqual(rows["crashing"]["exit_code"], str(-signal.SIGSEGV))
         self.assertIn("crashed: SIGSEGV", rows["crashing"]["reason"])
         table = (self.output / "table.md").read_text()
-        self.assertEqual(table.splitlines()[4].count(" x "), 2)
+        self.assertEqual(table.splitlines()[4].count(" × "), 2)
         self.assert_self_contained(self.output / "report.html")
 
         # The recording went with its last run; the printed command makes it again.

@@ -92,6 +92,16 @@ class ComparedTableTest(unittest.TestCase):
         self.assertEqual(self.cell(table, "ours", "L1").text, "x")
         self.assertEqual(self.cell(table, "ours", "L1", "eee_02").text, "-")
 
+    def test_an_average_over_some_of_the_sequences_says_so_and_is_not_the_best(self):
+        published = read_published(PUBLISHED / "traj_lo_kitti.yaml")
+        suite = make_suite(groups=published.columns[:11], metric="kitti_translation_percent")
+        rows = [row("ours", "04", 0.1)]
+        cell = tables.compared_table(suite, rows, published).lines[-1].cells[11]
+        self.assertEqual((cell.text, cell.best), ("0.10 (1 of 11)", False))
+        rows = [row("ours", name, 0.1) for name in published.columns[:11]]
+        cell = tables.compared_table(suite, rows, published).lines[-1].cells[11]
+        self.assertEqual((cell.text, cell.best), ("0.10", True))
+
     def test_the_average_needs_all_sequences_to_be_numbers(self):
         published = read_published(PUBLISHED / "traj_lo_kitti.yaml")
         suite = make_suite(groups=("00", "01"), metric="kitti_translation_percent")
@@ -145,7 +155,7 @@ class FormatsTest(unittest.TestCase):
         text = table_formats.to_markdown(self.table())
         self.assertIn(r"| category | approach | eee_01 |", text)
         self.assertIn(r"| LO | ours_1 \* (L1) | **<u>0.1</u>** |", text)
-        self.assertIn("| LIO | FAST-LIO (L1+I) | x |", text)
+        self.assertIn("| LIO | FAST-LIO (L1+I) | × |", text)
 
     def test_latex_is_escaped(self):
         text = table_formats.to_latex(self.table())
@@ -154,6 +164,14 @@ class FormatsTest(unittest.TestCase):
         self.assertIn(r"a \& b", text)
         self.assertEqual(text.count(r"\midrule"), 2)
 
+    def test_configurations_of_one_name_are_told_apart_by_their_sensors(self):
+        lines = [tables.Line("trajlo", "LO", sensors, True, [tables.Cell("0.1")])
+                 for sensors in ("L1", "L1+L2")]
+        table = tables.Table("ATE", ["eee_01"], lines)
+        text = table_formats.to_markdown(table)
+        self.assertIn("| trajlo (L1) | 0.1 |", text)
+        self.assertIn("| trajlo (L1+L2) | 0.1 |", text)
+
     def test_csv_has_plain_values(self):
         self.assertEqual(table_formats.to_csv(self.table()),
                          "category,approach,eee_01\nLO,ours_1 * (L1),0.1\nLIO,FAST-LIO (L1+I),x\n")
@@ -161,7 +179,7 @@ class FormatsTest(unittest.TestCase):
     def test_a_transposed_table_has_a_row_a_sequence(self):
         table = self.table()
         table.transposed = True
-        self.assertIn("| eee_01 | **<u>0.1</u>** | x |", table_formats.to_markdown(table))
+        self.assertIn("| eee_01 | **<u>0.1</u>** | × |", table_formats.to_markdown(table))
 
 
 if __name__ == "__main__":
