@@ -14,11 +14,11 @@ enum class MapKind { kVoxelHash, kKdTree };
 struct MapOptions {
   MapKind kind = MapKind::kVoxelHash;
   /// Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).
-  double voxel_size_m = 0.4;
+  double voxel_size_m = 0.25;
   int max_points_per_voxel = 20;
   /// A point nearer than this to another of its voxel is not added: otherwise a sensor at rest
   /// fills the voxels with copies of the same rings, and planes are fitted to scan lines.
-  double min_point_spacing_m = 0.08;
+  double min_point_spacing_m = 0.12;
   /// Voxels farther than this from the sensor are dropped.
   double radius_m = 100.0;
 };

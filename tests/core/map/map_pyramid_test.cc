@@ -10,6 +10,14 @@
 namespace trajlo {
 namespace {
 
+/// Voxels of 0.4, 0.8, 1.6 and 3.2 m, to which the scenes below are made.
+MapPyramid MakeMap() {
+  MapPyramidOptions options;
+  options.finest.voxel_size_m = 0.4;
+  options.finest.min_point_spacing_m = 0.08;
+  return MapPyramid(options);
+}
+
 TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
   // A noisy floor: small planes of it tilt, and the wide one hardly does.
   testing::Random random(13);
@@ -17,7 +25,7 @@ TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
   for (int i = 0; i < 20000; ++i) {
     floor.emplace_back(random.Uniform(-4, 4), random.Uniform(-4, 4), random.Gaussian(0.015));
   }
-  MapPyramid map({});
+  MapPyramid map = MakeMap();
   map.Insert(floor);
   PlaneFitOptions wide, fine;
   fine.max_wide_flatness = 0.0;
@@ -45,7 +53,7 @@ TEST(MapPyramid, TakesTheFinePlaneWhereTheWideOneIsNotThin) {
       stairs.emplace_back(x, y, 0.3 * std::floor(x / 0.5));
     }
   }
-  MapPyramid map({});
+  MapPyramid map = MakeMap();
   map.Insert(stairs);
   Plane plane;
   ASSERT_TRUE(map.FindPlane({0.25, 0.0, 0.01}, {0.8, 0.0, -0.6}, {}, 1.0, &plane));
@@ -63,7 +71,7 @@ TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
   for (double y = 1.5; y < 1.71; y += 0.05) {
     for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(4.65, y, z);
   }
-  MapPyramid map({});
+  MapPyramid map = MakeMap();
   map.Insert(wall_then_post);
   const Eigen::Vector3d ray(1.0, 0.0, 0.0);
   Plane plane;
@@ -91,7 +99,7 @@ TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
       points.emplace_back(5.0 + random.Uniform(0.0, 0.3), y, z);
     }
   }
-  MapPyramid map({});
+  MapPyramid map = MakeMap();
   map.Insert(points);
   const Eigen::Vector3d query(5.15, 0.0, 0.0), ray(1.0, 0.0, 0.0);
   PlaneFitOptions options;
@@ -109,7 +117,7 @@ TEST(MapPyramid, TakesAPlaneAlongTheRayWhereThereIsNoOther) {
   for (double x = -1.0; x < 1.0; x += 0.05) {
     for (double y = -1.0; y < 1.0; y += 0.05) ground.emplace_back(x, y, 0.0);
   }
-  MapPyramid map({});
+  MapPyramid map = MakeMap();
   map.Insert(ground);
   Plane plane;
   ASSERT_TRUE(map.FindPlane({0, 0, 0}, {0.999, 0.0, -0.0447}, {}, 1.0, &plane));
