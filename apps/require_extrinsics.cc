@@ -8,10 +8,25 @@
 
 namespace trajlo {
 
+namespace {
+
+[[noreturn]] void FailTooMany(const std::vector<std::string>& lidars, std::size_t given) {
+  std::string text =
+      lidars.size() == 1 ? "one LiDAR is" : std::to_string(lidars.size()) + " LiDARs are";
+  text += " read, but sensor.T_body_lidar has the poses of " + std::to_string(given) + ":";
+  for (const std::string& name : lidars) text += "\n      " + name;
+  throw UsageError(text +
+                   "\nName the LiDARs that are meant (topics of a bag with input.topics), or leave "
+                   "in sensor.T_body_lidar those that are read, in this order.");
+}
+
+}  // namespace
+
 void RequireExtrinsics(const std::vector<std::string>& inputs, const RunConfig& config) {
   const std::vector<std::string> lidars = LidarNames(inputs, config.input);
   const std::size_t given = config.odometry.segmenter.T_body_lidar.size();
-  if (lidars.size() < 2 || given >= lidars.size()) return;
+  if (given > lidars.size()) FailTooMany(lidars, given);
+  if (lidars.size() < 2 || given == lidars.size()) return;
   std::string text = std::to_string(lidars.size()) + " LiDARs are read, and sensor.T_body_lidar " +
                      (given == 0 ? "is empty" : "has " + std::to_string(given)) +
                      ": it needs the pose of each in the body frame, in this order. In a file for "

@@ -8,8 +8,9 @@
 
 namespace trajlo {
 
-/// Throws UsageError if several LiDARs are read and sensor.T_body_lidar does not say of each where
-/// it sits: taken to sit in one place they give a wrong trajectory without any complaint.
+/// Throws UsageError if sensor.T_body_lidar does not have one pose for each LiDAR that is read, or
+/// none for the only one: taken to sit in one place, or where another one sits, they give a wrong
+/// trajectory without any complaint.
 void RequireExtrinsics(const std::vector<std::string>& inputs, const RunConfig& config);
 
 }  // namespace trajlo

@@ -42,7 +42,8 @@ constexpr char kHelp[] =
       the points of ROS 2 bags, captures (.pcap) and folders of scans as a ROS 1 bag; a layout given
       for a ROS 1 bag converts its points instead of copying its messages
   trajlo_convert recording.bag scans
-      scans/scans/*.pcd and scans/timestamps.txt (several LiDARs: scans/lidar0/..., scans/lidar1/...)
+      scans/scans/*.pcd and scans/timestamps.txt; several LiDARs: scans/lidar0/..., scans/lidar1/...
+      with record_times.txt beside timestamps.txt, by which trajlo_run merges them
   trajlo_convert square.bag truth.tum --poses=/leica/pose/relative
       PoseStamped, PoseWithCovarianceStamped, TransformStamped, PointStamped or Odometry as TUM
       (ROS 1 and ROS 2)
@@ -57,7 +58,8 @@ Flags:
 
 Points keep their positions and times: to the ns in the layouts of Ouster and Livox and in PCD (field
 t, uint32, ns), to 4 ns in Velodyne's (float32, s). Livox's has whole intensities from 0 to 255. Stamps
-become those of the sweeps' starts. Rings and other fields are kept only where messages are copied.
+become those of the sweeps' starts; scans keep their order, whatever the stamps. Rings and other
+fields are kept only where messages are copied.
 
 Exit codes: 0 ok, 1 wrong usage, 2 input unreadable, 3 a part of the input is damaged (the rest is
 written), 5 output not writable, 130 interrupted (what was read is written).

@@ -6,10 +6,12 @@
 #include "apps/info/info_job.h"
 #include "apps/interrupt.h"
 #include "apps/usage_error.h"
+#include "core/config/config.h"
 
 DEFINE_bool(json, false, "print JSON");
 DEFINE_bool(quick, false, "read the first messages only");
 DEFINE_bool(quiet, false, "no progress");
+DEFINE_string(velodyne_model, "auto", "of packets that do not name it");
 
 namespace {
 
@@ -28,7 +30,11 @@ constexpr char kHelp[] = R"(What a recording holds, and how to run on it.
   trajlo_info recording.bag --json
       the same for programs
 
-More flags: --quiet (no progress), --version
+More flags:
+  --velodyne_model=VLP-16   of a capture whose packets do not name it (old firmware); Puck-Hi-Res,
+                            HDL-32E, VLP-32C
+  --quiet                   no progress
+  --version
 
 Exit codes: 0 ok, 1 wrong usage, 2 a recording is unreadable, 3 a recording is damaged (what can be
 read is shown), 5 output not writable, 130 interrupted.
@@ -40,6 +46,10 @@ ExitCode Info(const trajlo::CommandLine& line) {
   request.json = FLAGS_json;
   request.quick = FLAGS_quick;
   request.quiet = FLAGS_quiet;
+  trajlo::RunConfig config;
+  trajlo::ApplyOverrides("input.velodyne_model=" + FLAGS_velodyne_model, &config,
+                         "--velodyne_model");
+  request.velodyne_model = config.input.velodyne_model;
   if (request.recordings.empty()) throw trajlo::UsageError("name a recording");
   return trajlo::InfoJob(request, trajlo::HandleInterrupts());
 }

@@ -58,7 +58,8 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
 
 More flags:
   --solver=ceres|gauss_newton   how a window is solved (solver.kind)
-  --threads=N                   0 for all cores; the result does not depend on it
+  --threads=N                   0 for all cores; the result does not depend on it (one more thread
+                                reads the recording; N decompress bz2 in a ROS 1 bag, if N > 1)
   --rate=HZ                     trajectory.tum at even times
   --at=scan-end|scan-mid        trajectory.tum with one pose per scan
   --covariance                  covariance.csv beside the trajectory: 6x6 of every control pose

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "apps/convert/convert_scans.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,9 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kAllCores = 0;
+
 /// The topics with points of all inputs, one for each LiDAR; empty texts for folders of scans.
 std::vector<std::string> LidarTopics(const std::vector<std::string>& inputs,
-                                     const std::vector<std::string>& wanted) {
+                                     const RecordingOptions& options) {
+  const std::vector<std::string>& wanted = options.topics;
+  CloudOptions how;
+  how.packets.velodyne_model = options.velodyne_model;
   std::vector<std::string> lidars;
   for (const std::string& input : inputs) {
     if (!HoldsClouds(input)) {
@@ -29,7 +37,7 @@ std::vector<std::string> LidarTopics(const std::vector<std::string>& inputs,
     } else if (!wanted.empty()) {
       lidars.insert(lidars.end(), wanted.begin(), wanted.end());
     } else {
-      const auto clouds = OpenClouds(input);
+      const auto clouds = OpenClouds(input, how);
       for (std::size_t i = 0; i < clouds->topics().size(); ++i) {
         const Topic& topic = clouds->topics()[i];
         if (clouds->IsCloud(i) && topic.messages > 0) lidars.push_back(topic.name);
@@ -43,7 +51,7 @@ std::vector<std::string> LidarTopics(const std::vector<std::string>& inputs,
 class Output {
  public:
   virtual ~Output() = default;
-  virtual void Write(const LidarScan& scan) = 0;
+  virtual void Write(const LidarScan& scan, std::int64_t recorded_ns) = 0;
   virtual void Close() = 0;
 };
 
@@ -60,13 +68,11 @@ class BagOutput : public Output {
     }
   }
 
-  void Write(const LidarScan& scan) override {
-    // Stamped at the start and recorded at the end of the sweep, so that every reader that goes by
-    // evidence sees which is which.
+  void Write(const LidarScan& scan, std::int64_t recorded_ns) override {
     const std::int64_t start_ns = SweepStartOf(scan);
     const auto lidar = static_cast<std::size_t>(scan.lidar_id);
     bag_.WriteScan(layout_, topics_.at(lidar), "lidar" + std::to_string(lidar),
-                   {start_ns, start_ns, SweepEndOf(scan)}, scan);
+                   {start_ns, start_ns, recorded_ns}, scan);
   }
   void Close() override { bag_.Close(); }
 
@@ -92,8 +98,10 @@ class FolderOutput : public Output {
                                         : request.output / ("lidar" + std::to_string(i)));
     }
   }
-  void Write(const LidarScan& scan) override {
-    folders_.at(static_cast<std::size_t>(scan.lidar_id)).Write(scan);
+  void Write(const LidarScan& scan, std::int64_t recorded_ns) override {
+    PcdFolderWriter& folder = folders_.at(static_cast<std::size_t>(scan.lidar_id));
+    if (folders_.size() == 1) return folder.Write(scan);
+    folder.Write(scan, recorded_ns);
   }
   void Close() override {
     for (PcdFolderWriter& folder : folders_) folder.Close();
@@ -114,6 +122,20 @@ class FolderOutput : public Output {
   std::vector<PcdFolderWriter> folders_;
 };
 
+/// When scans are said to be recorded: stamped at the start and recorded at the end of the sweep,
+/// every reader that goes by evidence sees which is which. Later than the scan before it in any
+/// case, so that broken stamps do not change the order.
+class RecordTimes {
+ public:
+  std::int64_t Next(const LidarScan& scan) {
+    last_ns_ = std::max(last_ns_ + 1, SweepEndOf(scan));
+    return last_ns_;
+  }
+
+ private:
+  std::int64_t last_ns_ = std::numeric_limits<std::int64_t>::min();
+};
+
 std::unique_ptr<Output> OpenOutput(const ConvertRequest& request,
                                    const std::vector<std::string>& topics) {
   if (request.WritesBag()) return std::make_unique<BagOutput>(request, topics);
@@ -125,10 +147,10 @@ std::unique_ptr<Output> OpenOutput(const ConvertRequest& request,
 ConvertedScans ConvertScans(const ConvertRequest& request, const std::atomic<bool>& stop) {
   const std::vector<std::string> inputs = InputPaths(request.input);
   RecordingOptions options = request.recording;
-  const std::vector<std::string> topics = LidarTopics(inputs, options.topics);
+  const std::vector<std::string> topics = LidarTopics(inputs, options);
   // All LiDARs of a bag, where trajlo_run would ask which. Several inputs choose their own.
   if (inputs.size() == 1 && HoldsClouds(inputs.front())) options.topics = topics;
-  const std::unique_ptr<ScanSource> recording = OpenRecording(inputs, options);
+  const std::unique_ptr<ScanSource> recording = OpenRecording(inputs, options, kAllCores);
   if (!request.quiet) std::printf("%s\n", recording->description().c_str());
   std::fflush(stdout);
   std::unique_ptr<Output> output;
@@ -136,10 +158,11 @@ ConvertedScans ConvertScans(const ConvertRequest& request, const std::atomic<boo
   converted.lidars = topics.size();
   {
     ReadingProgress progress(stderr, request.quiet);
+    RecordTimes record_times;
     LidarScan scan;
     while (!stop && recording->Next(&scan)) {
       if (output == nullptr) output = OpenOutput(request, topics);
-      output->Write(scan);
+      output->Write(scan, record_times.Next(scan));
       ++converted.scans;
       converted.points += scan.points.size();
       progress.Update(recording->report().scans_read, recording->size());

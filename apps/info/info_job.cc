@@ -20,6 +20,8 @@ RecordingInspection Inspect(const std::string& path, const InfoRequest& request,
                             const std::atomic<bool>& stop) {
   ReadingProgress progress(stderr, request.quiet);
   InspectionOptions options;
+  options.clouds.packets.velodyne_model = request.velodyne_model;
+  options.clouds.threads = 0;
   options.messages_per_lidar = request.quick ? kQuickMessages : 0;
   options.on_progress = [&](std::size_t done, std::size_t all) { progress.Update(done, all); };
   options.should_stop = [&] { return stop.load(); };

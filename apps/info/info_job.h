@@ -2,10 +2,12 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/exit_code.h"
+#include "core/io/packets/velodyne_model.h"
 
 namespace trajlo {
 
@@ -15,6 +17,8 @@ struct InfoRequest {
   /// Only the first messages of each LiDAR.
   bool quick = false;
   bool quiet = false;
+  /// Of packets that do not name it.
+  std::optional<VelodyneModel> velodyne_model;
 };
 
 /// Prints what the recordings hold; what cannot be read is said on stderr, and the rest goes on.

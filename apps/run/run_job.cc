@@ -236,7 +236,7 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
   try {
     folder.Check(request.overwrite);
     const std::unique_ptr<ScanSource> recording =
-        OpenRecording(request.inputs, request.config.input);
+        OpenRecording(request.inputs, request.config.input, request.config.odometry.threads);
     summary.input_description = Lines(recording->description());
     if (!request.quiet) std::printf("%s\n", recording->description().c_str());
     std::fflush(stdout);

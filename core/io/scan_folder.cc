@@ -35,6 +35,7 @@ std::string Milliseconds(std::int64_t ns) {
 ScanFolder::ScanFolder(const std::filesystem::path& path, const ScanFolderOptions& options)
     : options_(options), listing_(ListScans(path)) {
   stamps_ = FindStamps(options_.stamps_file, &listing_);
+  recorded_ns_ = FindRecordTimes(listing_);
   report_.scans_listed = listing_.files.size();
   report_.warnings = stamps_.warnings;
   Probe();
@@ -119,11 +120,13 @@ void ScanFolder::Describe(const std::filesystem::path& path) {
                     FormatSeconds(stamps_.t_ns.back()) + " s";
   }
   description_ += "\npoint times: " + convention_.evidence;
+  if (!recorded_ns_.empty()) description_ += "\norder among LiDARs: record_times.txt";
   for (const std::string& note : listing_.notes) description_ += "\nnote: " + note;
 }
 
 ScanFolder::Outcome ScanFolder::Decode(std::size_t index, LidarScan reused) const {
   Outcome outcome;
+  outcome.index = index;
   outcome.scan = std::move(reused);
   const std::filesystem::path& file = listing_.files[index];
   try {
@@ -151,6 +154,11 @@ void ScanFolder::StartNext(LidarScan reused) {
   ahead_ = std::async(policy, &ScanFolder::Decode, this, next_++, std::move(reused));
 }
 
+std::optional<std::int64_t> ScanFolder::recorded_ns() const {
+  if (recorded_ns_.empty()) return {};
+  return recorded_ns_[last_];
+}
+
 bool ScanFolder::Next(LidarScan* scan) {
   if (!ahead_.valid()) StartNext({});
   while (ahead_.valid()) {
@@ -162,6 +170,7 @@ bool ScanFolder::Next(LidarScan* scan) {
       continue;
     }
     std::swap(*scan, outcome.scan);
+    last_ = outcome.index;
     if (options_.read_ahead) StartNext(std::move(outcome.scan));
     ++report_.scans_read;
     report_.scans_damaged += outcome.damage.empty() ? 0 : 1;

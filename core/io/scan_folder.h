@@ -42,6 +42,7 @@ class ScanFolder : public ScanSource {
   ScanFolder& operator=(const ScanFolder&) = delete;
 
   bool Next(LidarScan* scan) override;
+  std::optional<std::int64_t> recorded_ns() const override;
   std::size_t size() const override { return listing_.files.size(); }
   const std::string& description() const override { return description_; }
   const ReadReport& report() const override { return report_; }
@@ -57,6 +58,7 @@ class ScanFolder : public ScanSource {
  private:
   /// What became of one file.
   struct Outcome {
+    std::size_t index = 0;
     LidarScan scan;
     std::size_t points_without_time = 0;
     bool readable = false;
@@ -72,11 +74,15 @@ class ScanFolder : public ScanSource {
   ScanFolderOptions options_;
   ScanListing listing_;
   ScanStamps stamps_;
+  /// See FindRecordTimes.
+  std::vector<std::int64_t> recorded_ns_;
   bool has_assumed_stamps_ = false;
   TimeConvention convention_;
   std::string description_;
   ReadReport report_;
   std::size_t next_ = 0;
+  /// The file of the scan that came last.
+  std::size_t last_ = 0;
   /// Declared last: its destructor waits for a decoding that uses the members above.
   std::future<Outcome> ahead_;
 };

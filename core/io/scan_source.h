@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,9 @@ class ScanSource {
 
   /// Fills `scan` with the next scan and reuses its memory; false at the end.
   virtual bool Next(LidarScan* scan) = 0;
+  /// When the scan that came last was recorded, where a folder says so: its order among those of
+  /// other folders.
+  virtual std::optional<std::int64_t> recorded_ns() const { return {}; }
   /// Scans that the recording lists, broken ones included.
   virtual std::size_t size() const = 0;
   /// What is read and how it is understood (stamps, times), to be printed; several lines.

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStampFiles[] = {"timestamps.txt", "times.txt", "stamps.txt",
                                        "timestamp.txt"};
+constexpr const char* kRecordTimesFiles[] = {"record_times.txt"};
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 bool AllDigits(std::string_view text) {
@@ -108,17 +109,29 @@ std::vector<std::size_t> LinesOfScans(const ScanListing& listing, std::size_t st
   return lines;
 }
 
-fs::path FindStampsFile(const fs::path& folder) {
+template <typename Names>
+fs::path FindBeside(const fs::path& folder, const Names& names) {
   std::error_code ignored;
   const fs::path absolute = fs::absolute(folder, ignored).lexically_normal();
   // A trailing slash would make the folder its own parent.
   const fs::path clean = absolute.has_filename() ? absolute : absolute.parent_path();
   for (const fs::path& place : {clean, clean.parent_path()}) {
-    for (const char* name : kStampFiles) {
+    for (const char* name : names) {
       if (fs::is_regular_file(place / name, ignored)) return place / name;
     }
   }
   return {};
+}
+
+/// Throws InputError if there are fewer than scans.
+std::vector<std::int64_t> ReadLinesFor(const ScanListing& listing, const fs::path& file) {
+  std::vector<std::int64_t> lines = ReadStampsFile(file);
+  if (lines.size() >= listing.files.size()) return lines;
+  throw InputError(file,
+                   std::to_string(lines.size()) + " stamps for " +
+                       std::to_string(listing.files.size()) + " scans in " +
+                       listing.folder.string(),
+                   "Complete the stamps file, or take out the scans that it does not cover.");
 }
 
 void WarnIfNotIncreasing(ScanStamps* stamps) {
@@ -164,17 +177,12 @@ std::vector<std::int64_t> ReadStampsFile(const fs::path& path) {
 }
 
 ScanStamps FindStamps(const fs::path& stamps_file, ScanListing* listing) {
-  const fs::path file = stamps_file.empty() ? FindStampsFile(listing->folder) : stamps_file;
+  const fs::path file =
+      stamps_file.empty() ? FindBeside(listing->folder, kStampFiles) : stamps_file;
   if (file.empty()) return StampsOfNames(listing);
 
-  const std::vector<std::int64_t> lines = ReadStampsFile(file);
+  const std::vector<std::int64_t> lines = ReadLinesFor(*listing, file);
   const std::size_t scans = listing->files.size();
-  if (lines.size() < scans) {
-    throw InputError(file,
-                     std::to_string(lines.size()) + " stamps for " + std::to_string(scans) +
-                         " scans in " + listing->folder.string(),
-                     "Complete the stamps file, or take out the scans that it does not cover.");
-  }
   ScanStamps stamps;
   stamps.source = file.filename().string();
   for (const std::size_t line : LinesOfScans(*listing, lines.size())) {
@@ -188,6 +196,17 @@ ScanStamps FindStamps(const fs::path& stamps_file, ScanListing* listing) {
   }
   WarnIfNotIncreasing(&stamps);
   return stamps;
+}
+
+std::vector<std::int64_t> FindRecordTimes(const ScanListing& listing) {
+  const fs::path file = FindBeside(listing.folder, kRecordTimesFiles);
+  if (file.empty()) return {};
+  const std::vector<std::int64_t> lines = ReadLinesFor(listing, file);
+  std::vector<std::int64_t> recorded_ns;
+  for (const std::size_t line : LinesOfScans(listing, lines.size())) {
+    recorded_ns.push_back(lines[line]);
+  }
+  return recorded_ns;
 }
 
 double TypicalPeriod(const std::vector<std::int64_t>& t_ns) {

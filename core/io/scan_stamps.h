@@ -31,6 +31,11 @@ std::vector<std::int64_t> ReadStampsFile(const std::filesystem::path& path);
 /// Throws InputError if there are fewer stamps than scans.
 ScanStamps FindStamps(const std::filesystem::path& stamps_file, ScanListing* listing);
 
+/// When each of the listed scans was recorded, which orders the scans of several LiDARs where
+/// stamps are broken: from record_times.txt beside the scans or one level up, in the form of a
+/// stamps file; empty without it. Throws InputError as FindStamps does.
+std::vector<std::int64_t> FindRecordTimes(const ScanListing& listing);
+
 /// The median of the steps between stamps that are positive, s; 0 if there are none.
 double TypicalPeriod(const std::vector<std::int64_t>& t_ns);
 

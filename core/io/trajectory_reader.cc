@@ -13,7 +13,7 @@
 namespace trajlo {
 namespace {
 
-enum class LineKind { kPose, kUnusable, kMalformed };
+enum class LineKind { kPose, kWithoutRotation, kUnusable, kMalformed };
 
 LineKind ParseLine(std::string_view line, StampedPose* pose) {
   const std::string_view stamp = TakeWord(&line);
@@ -29,8 +29,10 @@ LineKind ParseLine(std::string_view line, StampedPose* pose) {
   pose->t_ns = *t_ns;
   pose->T_world_body.t = Eigen::Vector3d(values[0], values[1], values[2]);
   pose->T_world_body.q = Eigen::Quaterniond(values[6], values[3], values[4], values[5]);
-  if (!pose->T_world_body.IsFinite() || pose->T_world_body.q.norm() < 1e-6) {
-    return LineKind::kUnusable;
+  if (!pose->T_world_body.IsFinite()) return LineKind::kUnusable;
+  if (pose->T_world_body.q.norm() < 1e-6) {
+    pose->T_world_body.q.setIdentity();
+    return LineKind::kWithoutRotation;
   }
   pose->T_world_body.q.normalize();
   return LineKind::kPose;
@@ -47,7 +49,8 @@ std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string
                                   std::vector<std::string>* warnings) {
   const bool ends_with_line = !text.empty() && text.back() == '\n';
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-  std::vector<StampedPose> poses;
+  std::vector<StampedPose> poses, positions;
+  std::vector<std::size_t> position_lines;
   const auto warn = [&](std::size_t number, const char* what) {
     if (warnings == nullptr) return;
     warnings->push_back(path.string() + ": line " + std::to_string(number) + " " + what);
@@ -60,14 +63,26 @@ std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string
     const LineKind kind = ParseLine(line, &pose);
     if (kind == LineKind::kPose) {
       poses.push_back(pose);
+    } else if (kind == LineKind::kWithoutRotation) {
+      positions.push_back(pose);
+      position_lines.push_back(number);
     } else if (kind == LineKind::kUnusable) {
-      warn(number, "is skipped: a number is not finite or the quaternion is zero");
+      warn(number, "is skipped: a number is not finite");
     } else if (text.empty() && !ends_with_line) {
       warn(number, "is skipped: it is incomplete, as after an interrupted recording");
     } else {
       throw InputError(path, "line " + std::to_string(number) + " is not 'stamp x y z qx qy qz qw'",
                        "A TUM trajectory has eight numbers a line, separated by blanks.");
     }
+  }
+  if (poses.empty() && !positions.empty()) {
+    warn(position_lines.front(),
+         "and all others have a zero quaternion: positions without rotations, whose angles mean "
+         "nothing");
+    return positions;
+  }
+  for (const std::size_t number : position_lines) {
+    warn(number, "is skipped: the quaternion is zero");
   }
   return poses;
 }

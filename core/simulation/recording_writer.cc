@@ -88,6 +88,12 @@ std::string KittiLine(const SE3& T) {
   return line + "\n";
 }
 
+std::string Lines(const std::vector<std::int64_t>& times_ns) {
+  std::string text;
+  for (const std::int64_t t_ns : times_ns) text += SecondsText(t_ns) + "\n";
+  return text;
+}
+
 /// The LiDARs of a bag, in the order of the extrinsics.
 std::string TopicsYaml(const std::vector<std::string>& topics) {
   std::string list;
@@ -122,7 +128,7 @@ RecordingWriter::RecordingWriter(const Simulator& simulator, fs::path directory,
     const fs::path folder =
         scenario.rig.size() == 1 ? directory_ : directory_ / ("lidar" + std::to_string(id));
     MakeFolder(folder / (scenario.motion_corrected ? "velodyne" : "scans"));
-    streams_.push_back({folder, {}});
+    streams_.push_back({folder, {}, {}});
   }
 }
 
@@ -142,6 +148,7 @@ void RecordingWriter::Write(const SimulatedScan& simulated) {
     WriteKittiBin(stream.directory / "velodyne" / NumberedName(number, "bin"), scan);
   }
   stream.stamps_ns.push_back(scan.stamp_ns);
+  stream.recorded_ns.push_back(simulated.RecordedNs());
 }
 
 void RecordingWriter::Finish() {
@@ -165,9 +172,9 @@ void RecordingWriter::WriteStamps() const {
       WriteKittiTables(stream, static_cast<int>(id));
       continue;
     }
-    std::string stamps;
-    for (const std::int64_t t_ns : stream.stamps_ns) stamps += SecondsText(t_ns) + "\n";
-    WriteFile(stream.directory / "timestamps.txt", stamps);
+    WriteFile(stream.directory / "timestamps.txt", Lines(stream.stamps_ns));
+    if (streams_.size() == 1) continue;
+    WriteFile(stream.directory / "record_times.txt", Lines(stream.recorded_ns));
   }
 }
 

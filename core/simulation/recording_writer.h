@@ -21,7 +21,8 @@ namespace trajlo::simulation {
 ///   scenario.yaml          all parameters, with the true extrinsics
 ///   rig.yaml               the true extrinsics, for trajlo_run --config=
 ///   picture.svg            the scene and the path from above
-/// A rig of several LiDARs has lidar0/, lidar1/ ... with scans/ and timestamps.txt in each. A
+/// A rig of several LiDARs has lidar0/, lidar1/ ... with scans/ and timestamps.txt in each, and
+/// record_times.txt with the times at which the scans were recorded, as a bag has them. A
 /// motion-corrected recording has KITTI's velodyne/000000.bin (x y z intensity, float32), times.txt
 /// (seconds since the start of the recording) and poses.txt (3x4 poses of the LiDAR at those times,
 /// relative to the first) in place of scans/ and timestamps.txt.
@@ -50,6 +51,7 @@ class RecordingWriter {
   struct Stream {
     std::filesystem::path directory;
     std::vector<std::int64_t> stamps_ns;
+    std::vector<std::int64_t> recorded_ns;
   };
   void WriteStamps() const;
   void WriteKittiTables(const Stream& stream, int lidar_id) const;

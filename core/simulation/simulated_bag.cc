@@ -6,8 +6,6 @@
 namespace trajlo::simulation {
 namespace {
 
-constexpr std::int64_t kLatencyNs = 1'000'000;
-
 /// What the driver of a sensor writes, by the names of MakeSensor.
 CloudLayout LayoutOf(const std::string& sensor) {
   const auto begins_with = [&](const char* prefix) { return sensor.rfind(prefix, 0) == 0; };
@@ -42,7 +40,7 @@ SimulatedBag::SimulatedBag(const Simulator& simulator, const std::filesystem::pa
 
 void SimulatedBag::Write(const SimulatedScan& simulated) {
   const auto lidar = static_cast<std::size_t>(simulated.scan.lidar_id);
-  const std::int64_t recorded_ns = simulated.true_start_ns + simulated.period_ns + kLatencyNs;
+  const std::int64_t recorded_ns = simulated.RecordedNs();
   WriteTruth(std::min(recorded_ns, simulator_.end_ns()));
   bag_.WriteScan(layouts_.at(lidar), topics_[lidar], "lidar" + std::to_string(lidar),
                  {simulated.scan.stamp_ns, simulated.sweep_start_ns, recorded_ns}, simulated.scan);

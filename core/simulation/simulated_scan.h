@@ -17,6 +17,9 @@ struct SimulatedScan {
   /// The true time at which the sweep started, and its number within this LiDAR's stream.
   std::int64_t true_start_ns = 0;
   std::int64_t index = 0;
+
+  /// A millisecond after the end of the sweep, by a clock that is right.
+  std::int64_t RecordedNs() const { return true_start_ns + period_ns + 1'000'000; }
 };
 
 }  // namespace trajlo::simulation

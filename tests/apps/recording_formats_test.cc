@@ -2,10 +2,12 @@
 // The same flight in every form of recording gives the same trajectory, to the byte.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tests/apps/command_testing.h"
+#include "tests/apps/ros2_copies.h"
 #include "tests/support/temp_folder.h"
 
 namespace trajlo::testing {
@@ -60,6 +62,37 @@ TEST_F(RecordingFormats, TwoLidarsOfDifferentKindsWithTheLayoutsOfTheirDrivers) 
   const std::string expected = Trajectory("pcd", "pcd");
   ASSERT_GT(expected.size(), 1000u);
   EXPECT_TRUE(Trajectory("bag", "bag") == expected);
+}
+
+TEST_F(RecordingFormats, TwoLidarsWithBrokenStampsKeepTheOrderInWhichTheyWereRecorded) {
+  // Lost scans, and stamps that repeat, jump back and jitter: four times as many as the scenario
+  // has, since this is short.
+  const std::vector<std::string> faults = {
+      "--set=faults.duplicate_stamp_fraction=0.08,faults.backward_stamp_fraction=0.04"};
+  std::vector<std::string> in_bag = faults;
+  in_bag.insert(in_bag.end(), {"--format=bag", "--bag_compression=lz4"});
+  Simulate("faults_os1_16x2", "pcd", faults);
+  const std::string expected = Trajectory("pcd", "pcd");
+  ASSERT_GT(expected.size(), 1000u);
+  for (const std::string layout : {"ouster", "velodyne", "livox"}) {
+    std::vector<std::string> more = in_bag;
+    more.push_back("--bag_layout=" + layout);
+    Simulate("faults_os1_16x2", layout, more);
+    EXPECT_TRUE(Trajectory(layout, layout) == expected) << layout;
+  }
+  CopyToDb3(Path("ouster") + "/recording.bag", Path("ouster.db3"));
+  EXPECT_TRUE(Trajectory("ouster.db3", "ouster") == expected);
+  CopyToMcap(Path("ouster") + "/recording.bag", Path("ouster.mcap"));
+  EXPECT_TRUE(Trajectory("ouster.mcap", "ouster") == expected);
+  Convert("ouster", "scans", {});
+  EXPECT_TRUE(Trajectory("scans", "pcd") == expected);
+  Convert("pcd", "again.bag", {"--compression=lz4"});
+  EXPECT_TRUE(Trajectory("again.bag", "ouster") == expected);
+  // In the order of stamps it would be another one.
+  for (const std::string folder : {"pcd/lidar0", "pcd/lidar1"}) {
+    std::filesystem::remove(Path(folder) + "/record_times.txt");
+  }
+  EXPECT_FALSE(Trajectory("pcd", "pcd") == expected);
 }
 
 TEST_F(RecordingFormats, StampsAtTheEndOfTheSweepAreFoundByEvidenceInABag) {

@@ -103,5 +103,35 @@ TEST(TrajloInfo, WhatIsUnreadableExitsWithTwoAfterShowingTheRest) {
   EXPECT_THAT(outcome.out, HasSubstr("lidar 0"));
 }
 
+/// Of a Velodyne with old firmware that turns: every measurement is 10 m.
+std::string UnnamedVelodynePacket(int index) {
+  std::string packet;
+  for (int block = 0; block < 12; ++block) {
+    const int azimuth_cdeg = (480 * index + 40 * block) % 36000;
+    packet += std::string("\xff\xee") + static_cast<char>(azimuth_cdeg & 0xff) +
+              static_cast<char>(azimuth_cdeg >> 8);
+    for (int laser = 0; laser < 32; ++laser) packet += "\x88\x13\x10";
+  }
+  const int time_us = 1327 * index;
+  for (int byte = 0; byte < 4; ++byte) packet += static_cast<char>(time_us >> 8 * byte);
+  return packet + std::string(2, '\0');
+}
+
+TEST(TrajloInfo, TheModelOfAVelodyneThatIsGivenStandsInTheCommandToUse) {
+  const TempFolder folder;
+  std::string payloads;
+  for (int i = 0; i < 400; ++i) payloads += UnnamedVelodynePacket(i);
+  WriteFile(folder / "old.bin", payloads);
+  const std::string path = (folder / "old.bin").string();
+  EXPECT_EQ(Info({path}).exit_code, 2);
+  const Outcome wrong = Info({path, "--velodyne_model=VLP-17"});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("VLP-16 | Puck-Hi-Res | HDL-32E | VLP-32C"));
+  const Outcome outcome = Info({path, "--velodyne_model=VLP-16"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("VLP-16 packets"), HasSubstr("--set=input.velodyne_model=VLP-16")));
+}
+
 }  // namespace
 }  // namespace trajlo::testing

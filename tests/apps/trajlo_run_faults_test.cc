@@ -51,6 +51,24 @@ TEST_F(TrajloRunTest, SeveralLidarsWithoutTheirPosesAreRefused) {
   EXPECT_EQ(Run({"--set=sensor.T_body_lidar=[{}, {}]"}).exit_code, 0);
 }
 
+TEST_F(TrajloRunTest, MorePosesThanLidarsAreRefused) {
+  RoomRecording room;
+  room.scans = 4;
+  room.Write(temp_ / "in");
+  const Outcome one = Run({"--set=sensor.T_body_lidar=[{}, {}]"});
+  EXPECT_EQ(one.exit_code, 1);
+  EXPECT_THAT(one.err, AllOf(HasSubstr("one LiDAR is read"), HasSubstr("the poses of 2"),
+                             HasSubstr(input())));
+  WriteFile(temp_ / "in.bag", "");
+  const Outcome two = Call({"--input=" + input() + ".bag", "--output=" + output(),
+                            "--set=input.topics=[/a, /b],sensor.T_body_lidar=[{}, {}, {}]"});
+  EXPECT_EQ(two.exit_code, 1);
+  EXPECT_THAT(two.err, AllOf(HasSubstr("2 LiDARs are read"), HasSubstr("the poses of 3"),
+                             HasSubstr("/b of ")));
+  EXPECT_FALSE(fs::exists(output()));
+  EXPECT_EQ(Run({"--set=sensor.T_body_lidar=[{}]"}).exit_code, 0);
+}
+
 TEST_F(TrajloRunTest, SeveralTopicsWithoutTheirPosesAreRefused) {
   WriteFile(temp_ / "in.bag", "");
   const Outcome outcome =

@@ -52,7 +52,8 @@ void BindEstimation(OdometryOptions* odometry, OptionBinder* b) {
          "Multiplies the covariances that are written: the window takes the map for exact and the "
          "errors of its points for independent, so 1 is optimistic.");
   b->Add("threads", odometry->threads, Range<int>{0, 1024},
-         "0 takes all cores; no result depends on it.");
+         "0 takes all cores; no result depends on it. So many also decompress bz2 chunks of a "
+         "ROS 1 bag ahead; with 1 a single thread reads beside the estimator.");
 }
 
 }  // namespace trajlo

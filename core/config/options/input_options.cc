@@ -20,6 +20,12 @@ const Names<TimeOrigin> kTimeOrigins = {{"auto", TimeOrigin::kAuto},
 const Names<StampAt> kStampEnds = {
     {"auto", StampAt::kAuto}, {"start", StampAt::kStart}, {"end", StampAt::kEnd}};
 
+Names<std::optional<VelodyneModel>> VelodyneModels() {
+  Names<std::optional<VelodyneModel>> names = {{"auto", std::nullopt}};
+  for (const auto& [name, model] : kVelodyneModels) names.emplace_back(name, model);
+  return names;
+}
+
 }  // namespace
 
 void BindInput(RecordingOptions* input, OptionBinder* b) {
@@ -43,6 +49,9 @@ void BindInput(RecordingOptions* input, OptionBinder* b) {
          "File with one stamp a line; empty searches for timestamps.txt or times.txt.");
   b->Add("input.scan_period_s", input->scan_period_s, Range<double>{1e-3, 100.0},
          "Time between scans when nothing else gives stamps.");
+  b->Add("input.velodyne_model", input->velodyne_model, VelodyneModels(),
+         "Of Velodynes in a capture whose packets do not name it (old firmware); auto refuses "
+         "these. VLP-16 is also the Puck LITE.");
   b->Add("input.start_s", input->start_s, Range<double>{0.0, 1e9},
          "Scans before this much time since the first are skipped.");
   b->Add("input.duration_s", input->duration_s, Range<double>{0.0, 1e9},

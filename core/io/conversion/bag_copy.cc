@@ -20,7 +20,8 @@ bool IsWanted(const std::string& topic, const BagCopyOptions& options) {
 std::vector<std::unique_ptr<Ros1BagReader>> OpenAll(
     const std::vector<std::filesystem::path>& bags) {
   std::vector<std::unique_ptr<Ros1BagReader>> readers;
-  for (const auto& bag : bags) readers.push_back(std::make_unique<Ros1BagReader>(bag));
+  constexpr int kAllCores = 0;
+  for (const auto& bag : bags) readers.push_back(std::make_unique<Ros1BagReader>(bag, kAllCores));
   return readers;
 }
 

@@ -36,7 +36,8 @@ ExtractedPoses ExtractPoses(const std::filesystem::path& recording, const std::s
   std::string others;
   bool found = false;
   for (const std::filesystem::path& part : parts) {
-    const std::unique_ptr<RawMessageReader> reader = OpenMessages(part);
+    constexpr int kAllCores = 0;
+    const std::unique_ptr<RawMessageReader> reader = OpenMessages(part, kAllCores);
     const std::size_t place = FindTopic(*reader, topic, &others);
     if (place == kNone) continue;
     found = true;

@@ -32,12 +32,19 @@ std::uint32_t OffsetNs(const fs::path& path, std::int64_t offset_ns) {
   return static_cast<std::uint32_t>(offset_ns);
 }
 
+std::string Lines(const std::vector<std::int64_t>& times_ns) {
+  std::string text;
+  for (const std::int64_t t_ns : times_ns) text += FormatSeconds(t_ns) + "\n";
+  return text;
+}
+
 }  // namespace
 
 void RemoveScans(const fs::path& folder) {
   std::error_code error;
   fs::remove_all(folder / "scans", error);
   fs::remove(folder / "timestamps.txt", error);
+  fs::remove(folder / "record_times.txt", error);
   for (int id = 0; fs::remove_all(folder / ("lidar" + std::to_string(id)), error) > 0; ++id) {
   }
 }
@@ -64,12 +71,13 @@ PcdFolderWriter::PcdFolderWriter(fs::path folder) : folder_(std::move(folder)) {
   if (error) throw OutputError(folder_, "cannot make the folder: " + error.message());
 }
 
-void PcdFolderWriter::Write(const LidarScan& scan) {
+void PcdFolderWriter::Write(const LidarScan& scan, std::optional<std::int64_t> recorded_ns) {
   char name[32];
   std::snprintf(name, sizeof(name), "%06zu.pcd", stamps_ns_.size());
   const fs::path path = folder_ / "scans" / name;
   const std::int64_t start_ns = SweepStartOf(scan);
   stamps_ns_.push_back(start_ns);
+  if (recorded_ns) recorded_ns_.push_back(*recorded_ns);
   std::string bytes = Header(scan.points.size(), scan.has_point_times);
   const std::size_t begin = bytes.size();
   const std::size_t step = scan.has_point_times ? 20 : 16;
@@ -90,9 +98,8 @@ void PcdFolderWriter::Write(const LidarScan& scan) {
 }
 
 void PcdFolderWriter::Close() {
-  std::string text;
-  for (const std::int64_t t_ns : stamps_ns_) text += FormatSeconds(t_ns) + "\n";
-  WriteTextFile(folder_ / "timestamps.txt", text);
+  WriteTextFile(folder_ / "timestamps.txt", Lines(stamps_ns_));
+  if (!recorded_ns_.empty()) WriteTextFile(folder_ / "record_times.txt", Lines(recorded_ns_));
 }
 
 }  // namespace trajlo

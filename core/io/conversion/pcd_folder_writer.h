@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,18 +15,20 @@ namespace trajlo {
 /// Writes the scans of one LiDAR as scans/000000.pcd, ... and timestamps.txt with a stamp a line.
 /// The files are binary with fields x y z intensity (float32) and, if points have times, t (uint32,
 /// ns since the scan's stamp, which is moved to the start of the sweep): exact, where seconds as
-/// float32 are good to 4 ns only. Members throw OutputError.
+/// float32 are good to 4 ns only. Where times of recording are given, record_times.txt has them, so
+/// that the scans of several LiDARs keep their order. Members throw OutputError.
 class PcdFolderWriter {
  public:
   explicit PcdFolderWriter(std::filesystem::path folder);
 
-  void Write(const LidarScan& scan);
+  /// `recorded_ns` for all scans or for none.
+  void Write(const LidarScan& scan, std::optional<std::int64_t> recorded_ns = {});
   /// Writes the stamps.
   void Close();
 
  private:
   std::filesystem::path folder_;
-  std::vector<std::int64_t> stamps_ns_;
+  std::vector<std::int64_t> stamps_ns_, recorded_ns_;
 };
 
 /// Removes what earlier PcdFolderWriters left in a folder and in its subfolders lidar0, lidar1, ...

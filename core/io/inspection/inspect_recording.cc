@@ -184,9 +184,11 @@ RecordingInspection InspectClouds(const fs::path& path, const Open& open,
 RecordingInspection InspectRecording(const std::string& path, const InspectionOptions& options) {
   const std::vector<std::string> parts = InputPaths(path);
   const bool is_folder = !parts.empty() && !HoldsClouds(parts.front());
-  RecordingInspection inspection = is_folder ? InspectFolders(path, parts, options)
-                                             : InspectClouds(
-                                                   path, [&] { return OpenClouds(path); }, options);
+  RecordingInspection inspection =
+      is_folder ? InspectFolders(path, parts, options)
+                : InspectClouds(
+                      path, [&] { return OpenClouds(path, options.clouds); }, options);
+  inspection.velodyne_model = options.clouds.packets.velodyne_model;
   std::error_code error;
   const fs::path rig = fs::path(path) / "rig.yaml";
   if (fs::is_regular_file(rig, error)) inspection.rig_config = rig.string();

@@ -10,10 +10,12 @@
 
 #include "core/io/inspection/inspection.h"
 #include "core/io/messages/cloud_message.h"
+#include "core/io/recording/open_clouds.h"
 
 namespace trajlo {
 
 struct InspectionOptions {
+  CloudOptions clouds;
   /// Stop after so many messages of each LiDAR; 0 reads everything.
   std::size_t messages_per_lidar = 0;
   /// Told the messages read so far and those that are listed.

@@ -10,6 +10,7 @@
 #include "core/io/inspection/point_summary.h"
 #include "core/io/inspection/stamp_summary.h"
 #include "core/io/messages/raw_message.h"
+#include "core/io/packets/velodyne_model.h"
 #include "core/io/time_convention.h"
 
 namespace trajlo {
@@ -78,6 +79,8 @@ struct RecordingInspection {
   std::string path;
   /// A config with extrinsics that lies in the recording's folder, as simulated ones have it.
   std::string rig_config;
+  /// As it was told, for packets that do not name it.
+  std::optional<VelodyneModel> velodyne_model;
   /// All topics of the file; those with clouds come again in `clouds`.
   std::vector<Topic> topics;
   std::vector<CloudInspection> clouds;

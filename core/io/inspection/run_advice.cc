@@ -130,8 +130,14 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
   const bool is_folder = Contains(clouds.front().type, " files");
   const bool choose = topics.size() > 1 || recording.clouds.size() > clouds.size();
   if (choose && !is_folder) settings = "input.topics=" + TopicList(topics);
+  const auto set = [&](const std::string& setting) {
+    settings += (settings.empty() ? "" : ",") + setting;
+  };
+  for (const auto& [name, model] : kVelodyneModels) {
+    if (recording.velodyne_model == model) set(std::string("input.velodyne_model=") + name);
+  }
   if (dataset != nullptr && dataset->stamps_at_end && HasStartStamps(clouds)) {
-    settings += std::string(settings.empty() ? "" : ",") + "input.stamp_at=start";
+    set("input.stamp_at=start");
     advice.remarks.push_back(
         "stamps of this dataset mark the end of the sweep, but by the evidence these mark its "
         "start: check input.stamp_at");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/io/messages/pose_decoder.h"
 
-#include <cmath>
-
 #include "core/io/messages/message_header.h"
 #include "core/io/messages/wire_reader.h"
 
@@ -46,11 +44,10 @@ std::optional<StampedPose> DecodePose(std::string_view type, Encoding encoding,
     // x, y, z, w, as Eigen stores them.
     for (int i = 0; i < 4; ++i) pose.T_world_body.q.coeffs()[i] = reader.Read<double>();
   }
-  const double norm = pose.T_world_body.q.norm();
-  if (!reader.ok() || !pose.T_world_body.t.allFinite() || !std::isfinite(norm) || norm < 1e-9) {
-    return {};
-  }
-  pose.T_world_body.q.coeffs() /= norm;
+  if (!reader.ok() || !pose.T_world_body.IsFinite()) return {};
+  // rospy's default, and so what a total station sends that knows no rotation.
+  if (pose.T_world_body.q.norm() < 1e-9) pose.T_world_body.q.setIdentity();
+  pose.T_world_body.q.normalize();
   return pose;
 }
 

@@ -6,11 +6,19 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace trajlo {
 
 /// The Velodyne sensors whose geometry is the same for every unit.
 enum class VelodyneModel { kVlp16, kPuckHiRes, kHdl32e, kVlp32c };
+
+/// By the names that options take.
+inline constexpr std::pair<const char*, VelodyneModel> kVelodyneModels[] = {
+    {"VLP-16", VelodyneModel::kVlp16},
+    {"Puck-Hi-Res", VelodyneModel::kPuckHiRes},
+    {"HDL-32E", VelodyneModel::kHdl32e},
+    {"VLP-32C", VelodyneModel::kVlp32c}};
 
 /// Where and when the 32 measurements of a data block were taken: slot k of a block is laser
 /// k % lasers of firing k / lasers. Sources: the user manuals 63-9243 (VLP-16, Puck LITE, Puck

@@ -46,7 +46,8 @@ const char* WhyUnsupported(const VelodyneKind& kind) {
            "packets' points; convert the capture with a tool that knows it, to PCD for instance";
   }
   return "Velodyne packets that do not say of which model they are (old firmware, or a model that "
-         "is not supported); name it: VLP-16, Puck Hi-Res, HDL-32E or VLP-32C";
+         "is not supported); name it with input.velodyne_model: VLP-16, Puck-Hi-Res, HDL-32E or "
+         "VLP-32C (--set=input.velodyne_model=VLP-16)";
 }
 
 bool ParseVelodynePacket(const std::uint8_t* data, VelodyneModel model, VelodynePacket* packet) {

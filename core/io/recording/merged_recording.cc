@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/io/recording/merged_recording.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace trajlo {
@@ -8,23 +9,31 @@ namespace trajlo {
 MergedRecording::MergedRecording(std::vector<std::unique_ptr<ScanSource>> sources) {
   for (auto& source : sources) {
     description_ += (description_.empty() ? "" : "\n") + source->description();
-    heads_.push_back({std::move(source), {}, false});
-    Fetch(&heads_.back());
+    heads_.push_back({std::move(source), {}, false, 0});
   }
+  for (Head& head : heads_) head.filled = head.source->Next(&head.scan);
+  by_record_times_ = std::all_of(heads_.begin(), heads_.end(), [](const Head& head) {
+    return !head.filled || head.source->recorded_ns();
+  });
+  for (Head& head : heads_) SetOrder(&head);
   UpdateReport();
 }
 
-void MergedRecording::Fetch(Head* head) { head->filled = head->source->Next(&head->scan); }
+/// Broken stamps tell the order in which scans came as little as anything else.
+void MergedRecording::SetOrder(Head* head) const {
+  head->order_ns = by_record_times_ ? head->source->recorded_ns().value_or(0) : head->scan.stamp_ns;
+}
 
 bool MergedRecording::Next(LidarScan* scan) {
   Head* earliest = nullptr;
   for (Head& head : heads_) {
     if (!head.filled) continue;
-    if (earliest == nullptr || head.scan.stamp_ns < earliest->scan.stamp_ns) earliest = &head;
+    if (earliest == nullptr || head.order_ns < earliest->order_ns) earliest = &head;
   }
   if (earliest == nullptr) return false;
   std::swap(*scan, earliest->scan);
-  Fetch(earliest);
+  earliest->filled = earliest->source->Next(&earliest->scan);
+  SetOrder(earliest);
   UpdateReport();
   return true;
 }

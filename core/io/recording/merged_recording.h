@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,7 +10,9 @@
 
 namespace trajlo {
 
-/// Several recordings as one: their scans in the order of their stamps.
+/// Several recordings as one: their scans in the order in which they were recorded where all of
+/// them say so (folders with record_times.txt), else in the order of their stamps. Bags do not say
+/// so: of two recorders, the clocks need not agree.
 class MergedRecording : public ScanSource {
  public:
   explicit MergedRecording(std::vector<std::unique_ptr<ScanSource>> sources);
@@ -24,11 +27,14 @@ class MergedRecording : public ScanSource {
     std::unique_ptr<ScanSource> source;
     LidarScan scan;
     bool filled;
+    /// Of `scan`: its order among the others.
+    std::int64_t order_ns;
   };
-  static void Fetch(Head* head);
+  void SetOrder(Head* head) const;
   void UpdateReport();
 
   std::vector<Head> heads_;
+  bool by_record_times_ = false;
   std::string description_;
   ReadReport report_;
 };

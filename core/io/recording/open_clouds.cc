@@ -56,8 +56,9 @@ bool IsCapture(const std::string& bytes) {
                      [&](std::string_view magic) { return BeginsWith(bytes, magic); });
 }
 
-std::unique_ptr<CloudMessageReader> OpenRos1(const fs::path& path) {
-  return std::make_unique<RosCloudReader>(std::make_unique<Ros1BagReader>(path), path);
+std::unique_ptr<CloudMessageReader> OpenRos1(const fs::path& path, const CloudOptions& options) {
+  return std::make_unique<RosCloudReader>(std::make_unique<Ros1BagReader>(path, options.threads),
+                                          path);
 }
 
 std::unique_ptr<CloudMessageReader> OpenRos2(const fs::path& path) {
@@ -78,11 +79,11 @@ std::unique_ptr<CloudMessageReader> OpenRos2(const fs::path& path) {
                    kFolder);
 }
 
-std::unique_ptr<CloudMessageReader> OpenFile(const fs::path& path) {
+std::unique_ptr<CloudMessageReader> OpenFile(const fs::path& path, const CloudOptions& options) {
   const std::string bytes = FirstBytes(path);
-  if (BeginsWith(bytes, "#ROSBAG V")) return OpenRos1(path);
+  if (BeginsWith(bytes, "#ROSBAG V")) return OpenRos1(path, options);
   if (IsCapture(bytes) || BeginsAsVelodynePayloads(bytes)) {
-    return std::make_unique<PacketCloudReader>(path);
+    return std::make_unique<PacketCloudReader>(path, options.packets);
   }
   const bool is_ros2 =
       BeginsWith(bytes, "\x89MCAP") || BeginsWith(bytes, "SQLite format 3") || IsRos2Bag(path);
@@ -98,13 +99,13 @@ bool HoldsClouds(const fs::path& path) {
   return fs::is_directory(path, error) && (IsRos2Bag(path) || !Ros1Bags(path).empty());
 }
 
-std::unique_ptr<CloudMessageReader> OpenClouds(const fs::path& path) {
+std::unique_ptr<CloudMessageReader> OpenClouds(const fs::path& path, const CloudOptions& options) {
   std::error_code error;
-  if (!fs::is_directory(path, error)) return OpenFile(path);
+  if (!fs::is_directory(path, error)) return OpenFile(path, options);
   const std::vector<fs::path> bags = Ros1Bags(path);
   if (bags.empty()) return OpenRos2(path);
   std::vector<std::unique_ptr<CloudMessageReader>> parts;
-  for (const fs::path& bag : bags) parts.push_back(OpenRos1(bag));
+  for (const fs::path& bag : bags) parts.push_back(OpenRos1(bag, options));
   if (parts.size() == 1) return std::move(parts.front());
   return std::make_unique<ChainedClouds>(std::move(parts));
 }
@@ -116,10 +117,12 @@ std::vector<fs::path> Ros1BagsOf(const fs::path& path) {
                                                    : std::vector<fs::path>();
 }
 
-std::unique_ptr<RawMessageReader> OpenMessages(const fs::path& path) {
+std::unique_ptr<RawMessageReader> OpenMessages(const fs::path& path, int threads) {
   std::error_code error;
   const bool is_folder = fs::is_directory(path, error);
-  if (!is_folder && !Ros1BagsOf(path).empty()) return std::make_unique<Ros1BagReader>(path);
+  if (!is_folder && !Ros1BagsOf(path).empty()) {
+    return std::make_unique<Ros1BagReader>(path, threads);
+  }
   return std::make_unique<Rosbag2Reader>(path);
 }
 

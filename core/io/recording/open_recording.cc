@@ -62,7 +62,10 @@ std::vector<std::string> LidarNames(const std::vector<std::string>& inputs,
 }
 
 std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs,
-                                          const RecordingOptions& options) {
+                                          const RecordingOptions& options, int threads) {
+  CloudOptions clouds;
+  clouds.packets.velodyne_model = options.velodyne_model;
+  clouds.threads = threads;
   std::vector<std::unique_ptr<ScanSource>> sources;
   std::size_t lidar_id = 0;
   for (const std::string& input : inputs) {
@@ -71,7 +74,7 @@ std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs
       continue;
     }
     auto recording = std::make_unique<CloudRecording>(
-        input, [&] { return OpenClouds(input); }, options, lidar_id);
+        input, [&] { return OpenClouds(input, clouds); }, options, lidar_id);
     lidar_id += recording->lidars();
     sources.push_back(std::move(recording));
   }

@@ -23,8 +23,9 @@ std::vector<std::string> LidarNames(const std::vector<std::string>& inputs,
 ///   - a folder of scans: one LiDAR,
 ///   - a bag (.bag, .db3, .mcap), a capture of packets (.pcap), or a folder of bags that follow
 ///     each other: as many LiDARs as `options.topics` names.
-/// `lidar_id` counts through the inputs. Throws InputError.
+/// `lidar_id` counts through the inputs. Several inputs are merged (see MergedRecording).
+/// `threads` as in CloudOptions; the scans do not depend on it. Throws InputError.
 std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs,
-                                          const RecordingOptions& options);
+                                          const RecordingOptions& options, int threads = 1);
 
 }  // namespace trajlo

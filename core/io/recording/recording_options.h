@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/io/packets/velodyne_model.h"
 #include "core/io/time_convention.h"
 
 namespace trajlo {
@@ -35,6 +37,8 @@ struct RecordingOptions {
   std::filesystem::path stamps_file;
   /// Time between the scans of a folder when nothing else gives stamps.
   double scan_period_s = 0.1;
+  /// Of the sensors in a capture whose packets do not name it (old firmware).
+  std::optional<VelodyneModel> velodyne_model;
   /// Scans before this much time since the first are skipped.
   double start_s = 0.0;
   /// The length of what is read; 0 reads to the end.

@@ -12,12 +12,13 @@ constexpr std::size_t kMaxHeldBytes = std::size_t{64} << 20U;
 
 }  // namespace
 
-Ros1BagReader::Ros1BagReader(const std::filesystem::path& path)
+Ros1BagReader::Ros1BagReader(const std::filesystem::path& path, int threads)
     : file_(path),
       log_(path),
       index_(ros1::BuildIndex(file_, &log_)),
       selected_(index_.topics.size(), true),
-      reader_(file_) {}
+      reader_(file_),
+      ahead_(file_, threads) {}
 
 void Ros1BagReader::Select(const std::vector<std::size_t>& topics) {
   selected_.assign(index_.topics.size(), false);
@@ -52,13 +53,27 @@ bool Ros1BagReader::IsSelected(std::uint32_t connection) const {
   return topic != index_.topic_of_connection.end() && selected_[topic->second];
 }
 
-void Ros1BagReader::Open(std::size_t chunk) {
-  ros1::ChunkEntry& entry = index_.chunks[chunk];
-  if (std::none_of(entry.connections.begin(), entry.connections.end(),
-                   [this](std::uint32_t connection) { return IsSelected(connection); })) {
-    return;
+bool Ros1BagReader::IsWanted(std::size_t chunk) const {
+  const std::vector<std::uint32_t>& connections = index_.chunks[chunk].connections;
+  return std::any_of(connections.begin(), connections.end(),
+                     [this](std::uint32_t connection) { return IsSelected(connection); });
+}
+
+/// Chunks are opened in the order of the index, so that the next ones are known.
+void Ros1BagReader::StartAhead() {
+  next_ahead_ = std::max(next_ahead_, next_chunk_);
+  for (; next_ahead_ < index_.chunks.size(); ++next_ahead_) {
+    if (!IsWanted(next_ahead_)) continue;
+    const ros1::ChunkEntry& entry = index_.chunks[next_ahead_];
+    if (!ahead_.Start(entry.offset, entry.limit)) return;
   }
-  reader_.Read(entry.offset, entry.limit, &read_);
+}
+
+void Ros1BagReader::Open(std::size_t chunk) {
+  if (!IsWanted(chunk)) return;
+  ros1::ChunkEntry& entry = index_.chunks[chunk];
+  if (!ahead_.Take(entry.offset, &read_)) reader_.Read(entry.offset, entry.limit, &read_);
+  StartAhead();
   if (!read_.damage.empty() && !entry.damage_logged) {
     log_.Add(entry.offset, read_.damage, read_.bytes_lost);
     entry.damage_logged = true;

@@ -14,6 +14,7 @@
 #include "core/io/random_access_file.h"
 #include "core/io/ros1/bag_chunk.h"
 #include "core/io/ros1/bag_index.h"
+#include "core/io/ros1/chunks_ahead.h"
 #include "core/io/ros1/damage_log.h"
 
 namespace trajlo {
@@ -31,11 +32,14 @@ namespace trajlo {
 /// of a chunk), cannot read lz4 chunks of linked blocks as other writers make them, and
 /// decompresses overlapping chunks again for every message.
 ///
-/// Memory holds one decompressed chunk, or up to 64 MB of them where chunks overlap in time.
+/// Memory holds one decompressed chunk, or up to 64 MB of them where chunks overlap in time, and
+/// what is decompressed ahead (see ChunksAhead).
 class Ros1BagReader : public RawMessageReader {
  public:
-  /// Throws InputError: no such file, not a bag, encrypted, or damaged without a message left.
-  explicit Ros1BagReader(const std::filesystem::path& path);
+  /// So many `threads` (0: one for each core) decompress the bz2 chunks that come next, unless it
+  /// is 1; messages and report do not depend on it. Throws InputError: no such file, not a bag,
+  /// encrypted, or damaged without a message left.
+  explicit Ros1BagReader(const std::filesystem::path& path, int threads = 1);
 
   const std::vector<Topic>& topics() const override { return index_.topics; }
   void Select(const std::vector<std::size_t>& topics) override;
@@ -57,6 +61,8 @@ class Ros1BagReader : public RawMessageReader {
   using OpenChunks = std::map<std::size_t, OpenChunk>;
 
   bool IsSelected(std::uint32_t connection) const;
+  bool IsWanted(std::size_t chunk) const;
+  void StartAhead();
   void Open(std::size_t chunk);
   void Load(OpenChunks::value_type* open);
   void MakeRoom(std::size_t chunk);
@@ -73,13 +79,16 @@ class Ros1BagReader : public RawMessageReader {
   /// The chunk that was read last; the memory of chunks that are done with returns here.
   ros1::Chunk read_;
 
-  /// The first of index_.chunks that was not opened yet.
+  /// The first of index_.chunks that was not opened yet, and the first that was not started ahead.
   std::size_t next_chunk_ = 0;
+  std::size_t next_ahead_ = 0;
   OpenChunks open_;
   /// When the next message of each open chunk was recorded.
   using Head = std::pair<std::int64_t, std::size_t>;
   std::priority_queue<Head, std::vector<Head>, std::greater<>> heads_;
   std::size_t held_bytes_ = 0;
+  /// Declared last: it stops before the file is closed.
+  ros1::ChunksAhead ahead_;
 };
 
 }  // namespace trajlo

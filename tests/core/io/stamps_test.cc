@@ -147,6 +147,16 @@ TEST_F(StampSearch, WhenAScanIsMissingTheIndexInTheNamesPicksTheLine) {
   EXPECT_THAT(Find().t_ns, ElementsAre(5 * kSecond, 6 * kSecond, 8 * kSecond));
 }
 
+TEST_F(StampSearch, TimesOfRecordingAreFoundInTheSameWay) {
+  for (const char* name : {"scans/0.pcd", "scans/2.pcd"}) folder_.Write(name, "");
+  const ScanListing listing = ListScans(folder_.path());
+  EXPECT_TRUE(FindRecordTimes(listing).empty());
+  folder_.Write("record_times.txt", "5.5\n5.4\n7\n");
+  EXPECT_THAT(FindRecordTimes(listing), ElementsAre(5'500'000'000, 7'000'000'000));
+  folder_.Write("record_times.txt", "5.5\n");
+  EXPECT_THROW(FindRecordTimes(listing), InputError);
+}
+
 TEST_F(StampSearch, StampsThatGoBackAreReported) {
   for (const char* name : {"0.bin", "1.bin", "2.bin"}) folder_.Write(name, "");
   folder_.Write("timestamps.txt", "5.0\n7.0\n6.5\n");

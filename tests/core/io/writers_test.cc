@@ -128,7 +128,18 @@ TEST(ReadTum, SkipsCommentsBlankLinesAndABrokenLastLine) {
   ASSERT_EQ(poses.size(), 1U);
   EXPECT_EQ(poses[0].t_ns, 1500000000);
   EXPECT_EQ(poses[0].T_world_body.q.w(), 1.0);
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("line 4"), HasSubstr("line 5"), HasSubstr("line 6")));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("line 4"), HasSubstr("line 6"), HasSubstr("line 5")));
+}
+
+TEST(ReadTum, PositionsOfATotalStationHaveNoRotations) {
+  const TempFolder folder;
+  std::vector<std::string> warnings;
+  const auto poses =
+      ReadTum(folder.Write("a.tum", "1 1 2 3 0 0 0 0\n2 4 5 6 0 0 0 0\n"), &warnings);
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[1].T_world_body.t, Eigen::Vector3d(4, 5, 6));
+  EXPECT_TRUE(poses[1].T_world_body.q.isApprox(Eigen::Quaterniond::Identity()));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("without rotations")));
 }
 
 TEST(ReadTum, AWrongNumberOfColumnsOrTextIsAnErrorThatNamesTheLine) {

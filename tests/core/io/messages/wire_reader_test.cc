@@ -51,7 +51,7 @@ TEST(WireReader, GivesNothingBeyondTheEndAndStaysThatWay) {
   EXPECT_EQ(reader.ReadBytes(0), "");
 }
 
-TEST(PoseDecoder, RejectsWhatIsNoPose) {
+TEST(PoseDecoder, RejectsWhatIsNoPoseAndTakesAZeroQuaternionForNoRotation) {
   const std::string header(16, '\0');
   const auto pose = [&](double x, double qw, std::size_t cut) {
     const double numbers[7] = {x, 0.0, 0.0, 0.0, 0.0, 0.0, qw};
@@ -61,7 +61,7 @@ TEST(PoseDecoder, RejectsWhatIsNoPose) {
   };
   ASSERT_TRUE(pose(1.0, 2.0, 0));
   EXPECT_EQ(pose(1.0, 2.0, 0)->T_world_body.q.w(), 1.0);
-  EXPECT_FALSE(pose(1.0, 0.0, 0));
+  EXPECT_EQ(pose(1.0, 0.0, 0)->T_world_body.q.w(), 1.0);
   EXPECT_FALSE(pose(std::numeric_limits<double>::quiet_NaN(), 1.0, 0));
   EXPECT_FALSE(pose(1.0, std::numeric_limits<double>::infinity(), 0));
   EXPECT_FALSE(pose(1.0, 1.0, 1));

@@ -287,7 +287,8 @@ TEST(VelodyneSweeps, OfOtherModelsAreRefusedByName) {
   EXPECT_THAT(WhatReadingThrows(vls128), HasSubstr("VLS-128"));
   packet.product = 0x00;
   const auto unnamed = folder.Write("unnamed.bin", packet.Bytes());
-  EXPECT_THAT(WhatReadingThrows(unnamed), HasSubstr("name it: VLP-16, Puck Hi-Res"));
+  EXPECT_THAT(WhatReadingThrows(unnamed),
+              HasSubstr("name it with input.velodyne_model: VLP-16, Puck-Hi-Res"));
   PacketOptions options;
   options.velodyne_model = VelodyneModel::kHdl32e;
   EXPECT_EQ(ReadSweeps(unnamed, options).topics[0].type, "HDL-32E packets");

@@ -58,6 +58,25 @@ TEST(OpenRecording, MergesLidarsByTheStampsOfTheirScans) {
   EXPECT_EQ(recording->report().scans_read, 6u);
 }
 
+TEST(OpenRecording, MergesLidarsByTheTimesOfRecordingWhereAllFoldersHaveThem) {
+  const TempFolder temp;
+  SmallRoom(3).Write(temp / "a");
+  SmallRoom(2).Write(temp / "b");
+  // The second stamp of `a` is broken: by the stamps its scans would all come first.
+  trajlo::testing::WriteFile(temp / "a/timestamps.txt", "1000.0\n999.9\n1000.2\n");
+  trajlo::testing::WriteFile(temp / "b/timestamps.txt", "1000.05\n1000.15\n");
+  trajlo::testing::WriteFile(temp / "a/record_times.txt", "1000.1\n1000.2\n1000.3\n");
+  const auto lidars = [&] {
+    const auto recording = OpenRecording({temp / "a", temp / "b"}, {});
+    std::vector<int> ids;
+    for (LidarScan scan; recording->Next(&scan);) ids.push_back(scan.lidar_id);
+    return ids;
+  };
+  EXPECT_THAT(lidars(), ElementsAre(0, 0, 1, 1, 0));
+  trajlo::testing::WriteFile(temp / "b/record_times.txt", "1000.15\n1000.25\n");
+  EXPECT_THAT(lidars(), ElementsAre(0, 1, 0, 1, 0));
+}
+
 TEST(LidarNames, AreTopicsOrFoldersInTheOrderOfTheIds) {
   const TempFolder temp;
   SmallRoom(1).Write(temp / "folder");
@@ -71,7 +90,7 @@ TEST(LidarNames, AreTopicsOrFoldersInTheOrderOfTheIds) {
 }
 
 /// A packet of a VLP-16 without a single return.
-std::string EmptyVelodynePacket(int index) {
+std::string EmptyVelodynePacket(int index, char product = 0x22) {
   std::string packet;
   for (int block = 0; block < 12; ++block) {
     const int azimuth_cdeg = (480 * index + 40 * block) % 36000;
@@ -80,7 +99,7 @@ std::string EmptyVelodynePacket(int index) {
   }
   const int time_us = 1327 * index;
   for (int byte = 0; byte < 4; ++byte) packet += static_cast<char>(time_us >> 8 * byte);
-  return packet + "\x37\x22";
+  return packet + '\x37' + product;
 }
 
 /// So many points in KITTI's format.
@@ -114,6 +133,18 @@ TEST(OpenRecording, ABinFileOfVelodynePayloadsIsToldFromAScanByItsBytes) {
   payloads[200] = '\0';
   trajlo::testing::WriteFile(temp / "damaged.bin", payloads);
   EXPECT_THAT(OpenClouds(temp / "damaged.bin")->topics()[0].type, "VLP-16 packets");
+}
+
+TEST(OpenRecording, PacketsThatDoNotNameTheirModelAreReadWhenAnOptionNamesIt) {
+  const TempFolder temp;
+  std::string payloads;
+  for (int i = 0; i < 160; ++i) payloads += EmptyVelodynePacket(i, '\0');
+  trajlo::testing::WriteFile(temp / "old.bin", payloads);
+  EXPECT_THAT(ErrorOf(temp / "old.bin"), HasSubstr("name it with input.velodyne_model: VLP-16"));
+  RecordingOptions options;
+  options.velodyne_model = VelodyneModel::kPuckHiRes;
+  EXPECT_THAT(OpenRecording({temp / "old.bin"}, options)->description(),
+              HasSubstr("Puck Hi-Res packets"));
 }
 
 TEST(OpenRecording, ASingleScanIsRefusedAndItsFolderIsNamedAsTheMend) {
