@@ -14,7 +14,7 @@ enum class MapKind { kVoxelHash, kKdTree };
 struct MapOptions {
   MapKind kind = MapKind::kVoxelHash;
   /// Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).
-  double voxel_size_m = 0.25;
+  double voxel_size_m = 0.3;
   int max_points_per_voxel = 20;
   /// A point nearer than this to another of its voxel is not added: otherwise a sensor at rest
   /// fills the voxels with copies of the same rings, and planes are fitted to scan lines.

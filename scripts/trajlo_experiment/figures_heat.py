@@ -125,13 +125,14 @@ def draw_heat_map(findings, across, upwards, rows_factor, theme):
             draw_cells(axes, ratios, texts, failed, theme, norm)
             marked += draw_marks(axes, findings, across, upwards, columns, lines, rows_factor,
                                  level, theme)
-            finish_panel(axes, title, index, rows_factor)
+            unit = "× best" if title == ALL and several else findings.unit
+            finish_panel(axes, f"{title} [{unit}]" if unit else title, index, rows_factor)
     label_axes(grid, across, upwards, columns, lines, rows_factor, levels)
     for axes in grid.flat[len(titles) * len(levels):]:
         axes.set_axis_off()
     bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, theme.error_map), ax=grid,
                           extend="max", shrink=0.9, pad=0.01, aspect=30)
-    bar.set_label("error / best")
+    bar.set_label("colour: error / best")
     bar.set_ticks([1, 2, 5, 10], labels=["1", "2", "5", "10"])
     bar.ax.minorticks_off()
     below(figure, mark_handles(findings, marked, theme))
