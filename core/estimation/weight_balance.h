@@ -8,7 +8,7 @@ namespace trajlo {
 /// How the ratio between geometry and smoothness finds itself.
 struct WeightBalanceOptions {
   /// Off: the sigmas of the configuration stand.
-  bool enabled = false;
+  bool enabled = true;
   /// Time over which residuals are remembered.
   double memory_s = 2.0;
   /// The configured sigmas count like residuals of this much time that agree with them.
