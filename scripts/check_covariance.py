@@ -4,11 +4,12 @@
 
   scripts/check_covariance.py RUN/result=RUN/truth.tum [...]
 Each RUN/result was written by `trajlo_run --covariance`; all runs are of one kind (a scenario with
-many seeds). For each time since the start it prints
+many seeds). For each stretch of time since the start it prints
 
   NEES = e' C^-1 e,   T_true = T Exp(e),   both trajectories in the frame of their first pose,
 
-as the mean over the runs divided by its expected value (6; 3 for translation or rotation alone).
+as the mean over the runs and the poses of the stretch, every 0.05 s, divided by its expected value
+(6; 3 for translation or rotation alone).
 If the covariance is right, that ratio lies in the band printed for 95 of 100 such experiments, and
 its mean over time all the more. That mean is the factor by which the covariance is optimistic; its
 95 % interval is a bootstrap over the runs, for the times of a run hang together (give ten or more:
@@ -27,6 +28,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation, Slerp
 
 PARTS = {"pose": slice(0, 6), "translation": slice(0, 3), "rotation": slice(3, 6)}
+STEP_S = 0.05
 
 
 def read_poses(path):
@@ -113,14 +115,17 @@ def scale_of(result):
     return float(found[1])
 
 
-def print_moments(moments, ratios, errors):
+def print_stretches(every, moments, ratios, errors):
     count = errors.shape[1]
     print(f"{count} runs; ratio of mean NEES to its expected value")
-    print("  time s " + "".join(f"{part:>13}" for part in PARTS) + "   rms m  rms deg")
-    rms = np.sqrt((errors**2).mean(axis=1))
-    for i, moment in enumerate(moments):
-        print(f"  {moment:6.2f} " + "".join(f"{ratios[part][i].mean():13.3g}" for part in PARTS)
-              + f"  {np.linalg.norm(rms[i, :3]):.4f}  {np.degrees(np.linalg.norm(rms[i, 3:])):.4f}")
+    print("  until s" + "".join(f"{part:>13}" for part in PARTS) + "   rms m  rms deg")
+    ends = np.ceil(moments / every - 1e-9) * every
+    for end in np.unique(ends):
+        chosen = ends == end
+        rms = np.sqrt((errors[chosen]**2).mean(axis=(0, 1)))
+        print(f"  {min(end, moments[-1]):7.2f}"
+              + "".join(f"{ratios[part][chosen].mean():13.3g}" for part in PARTS)
+              + f"  {np.linalg.norm(rms[:3]):.4f}  {np.degrees(np.linalg.norm(rms[3:])):.4f}")
 
 
 def print_verdict(ratios, scale):
@@ -144,7 +149,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", nargs="+", metavar="RESULT=TRUTH")
-    parser.add_argument("--every", type=float, default=1.0, help="seconds between lines")
+    parser.add_argument("--every", type=float, default=1.0, help="seconds to a line")
     parser.add_argument("--begin", type=float, default=0.0,
                         help="leave out what is earlier, such as a start at rest (s)")
     arguments = parser.parse_args()
@@ -158,12 +163,12 @@ def main():
     if len(scales) > 1:
         sys.exit(f"check_covariance.py: the runs differ in covariance_scale: {sorted(scales)}")
     end = min(times[-1] for times, _, _ in runs)
-    moments = np.arange(arguments.every, end + 1e-9, arguments.every)
+    moments = np.arange(STEP_S, end + 1e-9, STEP_S)
     moments = moments[moments >= arguments.begin - 1e-9]
     if not len(moments):
         sys.exit(f"check_covariance.py: the runs end at {end:.2f} s, before the first line")
     ratios, errors = nees_ratios(runs, moments)
-    print_moments(moments, ratios, errors)
+    print_stretches(arguments.every, moments, ratios, errors)
     print_verdict(ratios, scales.pop())
 
 
