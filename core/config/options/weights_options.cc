@@ -44,7 +44,7 @@ void BindWeights(WeightOptions* weights, OptionBinder* b) {
   b->Add("weights.smoothness_sigma_translation_m", weights->smoothness_sigma_translation_m,
          Range<double>{1e-6, 1e3},
          "Sigma of a segment's change of translation against the one before (paper: covariance "
-         "0.05).");
+         "0.05). A start only, unless weight_balance.enabled is false.");
   b->Add("weights.smoothness_sigma_rotation_rad", weights->smoothness_sigma_rotation_rad,
          Range<double>{1e-6, 1e3}, "The same for the rotation.");
   b->Add("weights.smoothness_interval_s", weights->smoothness_interval_s, Range<double>{1e-4, 10.0},
