@@ -33,7 +33,9 @@ class StopByGaussNewtonRule final : public ceres::IterationCallback {
     }
     last_was_taken_ = iteration.step_is_successful;
     if (last_was_taken_) return Take(state_->Poses(), iteration.cost);
-    if (std::abs(iteration.cost_change) > uphill_tolerance_ * iteration.cost) {
+    // Of a step that could not be computed, nothing was evaluated.
+    if (!iteration.step_is_valid ||
+        std::abs(iteration.cost_change) > uphill_tolerance_ * iteration.cost) {
       ++rejected_steps_;
       return ceres::SOLVER_CONTINUE;
     }
