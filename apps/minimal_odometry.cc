@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <exception>
 
-#include "core/estimation/odometry.h"
 #include "core/io/scan_folder.h"
 #include "core/io/stamp_text.h"
+#include "core/odometry/odometry.h"
 
 int main(int argc, char** argv) try {
   if (argc != 2) {
@@ -24,9 +24,8 @@ int main(int argc, char** argv) try {
 
   for (const trajlo::ControlPose& pose : odometry.trajectory().poses()) {
     const trajlo::SE3& T = pose.T_world_body;
-    std::printf("%s %.6f %.6f %.6f %.9f %.9f %.9f %.9f\n",
-                trajlo::FormatSeconds(pose.t_ns).c_str(), T.t.x(), T.t.y(), T.t.z(), T.q.x(),
-                T.q.y(), T.q.z(), T.q.w());
+    std::printf("%s %.6f %.6f %.6f %.9f %.9f %.9f %.9f\n", trajlo::FormatSeconds(pose.t_ns).c_str(),
+                T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w());
   }
   return 0;
 } catch (const std::exception& error) {

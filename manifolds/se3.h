@@ -23,9 +23,7 @@ struct SE3 {
 
   SE3 Inverse() const { return {q.conjugate(), -(q.conjugate() * t)}; }
 
-  SE3 operator*(const SE3& other) const {
-    return {(q * other.q).normalized(), q * other.t + t};
-  }
+  SE3 operator*(const SE3& other) const { return {(q * other.q).normalized(), q * other.t + t}; }
   Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return q * p + t; }
 
   /// The parameter block of this transform: 7 doubles [qx qy qz qw tx ty tz].

@@ -8,7 +8,8 @@ namespace trajlo {
 /// The Stumpff functions c_n(x) = sum_k (-1)^k x^(2k) / (2k + n)!, entire in x², so that every
 /// coefficient of SO(3) and SE(3) is a polynomial in them and no formula divides by an angle:
 ///
-///   c0 = cos x, c1 = sin x / x, c2 = (1 - cos x)/x², c3 = (x - sin x)/x³, and c_n = 1/n! - x² c_{n+2}.
+///   c0 = cos x, c1 = sin x / x, c2 = (1 - cos x)/x², c3 = (x - sin x)/x³, and c_n = 1/n! - x²
+///   c_{n+2}.
 ///
 /// Below x = 1 the series of c4 and c5 are summed (9 terms: the rest is below 1e-17) and the others
 /// follow by the recurrence, without a single trigonometric call; above, it runs the other way.
@@ -23,11 +24,13 @@ struct StumpffSeries {
   explicit StumpffSeries(const T& s) {
     // Horner form: c_n = 1/n! (1 - s/((n+1)(n+2)) (1 - s/((n+3)(n+4)) (...))).
     c4 = 1.0 - s * (1.0 / 380);
-    for (const double r : {1.0 / 306, 1.0 / 240, 1.0 / 182, 1.0 / 132, 1.0 / 90, 1.0 / 56, 1.0 / 30}) {
+    for (const double r :
+         {1.0 / 306, 1.0 / 240, 1.0 / 182, 1.0 / 132, 1.0 / 90, 1.0 / 56, 1.0 / 30}) {
       c4 = 1.0 - s * r * c4;
     }
     c5 = 1.0 - s * (1.0 / 420);
-    for (const double r : {1.0 / 342, 1.0 / 272, 1.0 / 210, 1.0 / 156, 1.0 / 110, 1.0 / 72, 1.0 / 42}) {
+    for (const double r :
+         {1.0 / 342, 1.0 / 272, 1.0 / 210, 1.0 / 156, 1.0 / 110, 1.0 / 72, 1.0 / 42}) {
       c5 = 1.0 - s * r * c5;
     }
     c4 = c4 * (1.0 / 24);

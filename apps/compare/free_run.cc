@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/estimation/odometry.h"
-#include "core/estimation/stopwatch.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_writer.h"
+#include "core/odometry/odometry.h"
+#include "core/odometry/stopwatch.h"
 #include "core/report/progress_bar.h"
 #include "core/report/resource_usage.h"
 #include "core/report/window_csv.h"

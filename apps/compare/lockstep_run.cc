@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/comparison/lockstep_csv.h"
-#include "core/estimation/odometry.h"
-#include "core/estimation/stopwatch.h"
 #include "core/io/recording/open_recording.h"
+#include "core/odometry/odometry.h"
+#include "core/odometry/stopwatch.h"
 #include "core/report/progress_bar.h"
 
 namespace trajlo {

@@ -18,8 +18,8 @@ const char* AssociationName(AssociationRule rule);
 AlignmentKind ParseAlignment(const std::string& text);
 const char* AlignmentName(AlignmentKind kind);
 
-/// "auto" (all with the association that copies evo, the last with the one that copies the TUM RGB-D
-/// benchmark, else the first), "first", "last", "all".
+/// "auto" (all with the association that copies evo, the last with the one that copies the TUM
+/// RGB-D benchmark, else the first), "first", "last", "all".
 RepeatedStamps ParseRepeatedStamps(const std::string& text, AssociationRule rule);
 const char* RepeatedStampsName(RepeatedStamps repeated_stamps);
 

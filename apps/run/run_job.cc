@@ -7,13 +7,13 @@
 #include <sstream>
 
 #include "apps/print_warnings.h"
-#include "core/estimation/odometry.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
 #include "core/io/point_cloud_writer.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_writer.h"
+#include "core/odometry/odometry.h"
 #include "core/report/covariance_csv.h"
 #include "core/report/processing_time.h"
 #include "core/report/progress_bar.h"

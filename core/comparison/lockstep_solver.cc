@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "core/estimation/stopwatch.h"
+#include "core/odometry/stopwatch.h"
 
 namespace trajlo {
 namespace {

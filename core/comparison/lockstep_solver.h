@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/comparison/solver_variant.h"
-#include "core/estimation/window_solver.h"
+#include "core/odometry/solvers/window_solver.h"
 
 namespace trajlo {
 

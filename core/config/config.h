@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/config/config_error.h"
-#include "core/estimation/odometry.h"
 #include "core/io/recording/recording_options.h"
+#include "core/odometry/odometry.h"
 
 namespace trajlo {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/io/output_file.h"
-#include "core/trajectory/trajectory.h"
+#include "core/odometry/trajectory/trajectory.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {

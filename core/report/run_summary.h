@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/io/scan_source.h"
+#include "core/odometry/sensing/segment_cloud.h"
 #include "core/report/window_totals.h"
-#include "core/sensing/segment_cloud.h"
 
 namespace trajlo {
 

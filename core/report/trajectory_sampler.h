@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "core/sensing/lidar_scan.h"
-#include "core/trajectory/trajectory.h"
+#include "core/odometry/sensing/lidar_scan.h"
+#include "core/odometry/trajectory/trajectory.h"
 
 namespace trajlo {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/estimation/window_statistics.h"
 #include "core/io/output_file.h"
+#include "core/odometry/window/window_statistics.h"
 
 namespace trajlo {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "core/estimation/window_statistics.h"
+#include "core/odometry/window/window_statistics.h"
 
 namespace trajlo {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/sensing/lidar_scan.h"
+#include "core/odometry/sensing/lidar_scan.h"
 
 namespace trajlo::simulation {
 

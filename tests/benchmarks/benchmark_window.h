@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/estimation/window_problem.h"
+#include "core/odometry/solvers/window_problem.h"
 #include "manifolds/se3_interpolation.h"
 #include "tests/support/random_poses.h"
 
@@ -25,8 +25,8 @@ struct BenchmarkWindow {
         point.p_body_m = random.Uniform(1, 30) * random.Direction();
         point.alpha = random.Uniform(0, 1);
         point.normal_world = random.Direction();
-        point.offset_m = point.normal_world.dot(
-                             Interpolate(truth[k], truth[k + 1], point.alpha) * point.p_body_m) +
+        point.offset_m = point.normal_world.dot(Interpolate(truth[k], truth[k + 1], point.alpha) *
+                                                point.p_body_m) +
                          random.Gaussian(0.02);
         storage[k].push_back(point);
       }

@@ -11,7 +11,7 @@
 
 #include <chrono>
 
-#include "core/estimation/gauss_newton_solver.h"
+#include "core/odometry/solvers/gauss_newton_solver.h"
 #include "factors/point_to_plane.h"
 #include "manifolds/se3_manifold.h"
 #include "tests/benchmarks/benchmark_window.h"

@@ -3,7 +3,7 @@
 // room's surfaces, by each map; and inserting a segment's points.
 #include <benchmark/benchmark.h>
 
-#include "core/map/map_pyramid.h"
+#include "core/odometry/map/map_pyramid.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A whole window with fixed associations as the odometry uses it: five iterations of a solver of the
-// product on one thread, then the registration linearised at the solution (for marginalisation and
-// for the window's condition). The Ceres case prints its ratio to Gauss-Newton, measured in the same
-// run.
+// A whole window with fixed associations as the odometry uses it: five iterations of a solver of
+// the product on one thread, then the registration linearised at the solution (for marginalisation
+// and for the window's condition). The Ceres case prints its ratio to Gauss-Newton, measured in the
+// same run.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 
-#include "core/estimation/window_solver.h"
+#include "core/odometry/solvers/window_solver.h"
 #include "tests/benchmarks/benchmark_window.h"
 
 namespace trajlo {
@@ -41,15 +41,18 @@ void SolveWindow(benchmark::State& state, SolverKind kind) {
   double seconds = 0.0;
   for (auto _ : state) seconds += SecondsPerSolve(window, kind, 1);
   if (kind == SolverKind::kCeres) {
-    state.counters["ceres_vs_gauss_newton"] =
-        seconds / static_cast<double>(state.iterations()) /
-        SecondsPerSolve(window, SolverKind::kGaussNewton, 50);
+    state.counters["ceres_vs_gauss_newton"] = seconds / static_cast<double>(state.iterations()) /
+                                              SecondsPerSolve(window, SolverKind::kGaussNewton, 50);
   }
 }
 BENCHMARK_CAPTURE(SolveWindow, gauss_newton, SolverKind::kGaussNewton)
-    ->Arg(1500)->Arg(5000)->Unit(benchmark::kMicrosecond);
+    ->Arg(1500)
+    ->Arg(5000)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(SolveWindow, ceres, SolverKind::kCeres)
-    ->Arg(1500)->Arg(5000)->Unit(benchmark::kMicrosecond);
+    ->Arg(1500)
+    ->Arg(5000)
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace trajlo

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "factors/marginalization_prior.h"
 
-#include <Eigen/Dense>
 #include <ceres/autodiff_cost_function.h>
+
+#include <Eigen/Dense>
 
 #include "tests/support/autodiff_twins.h"
 #include "tests/support/factor_testing.h"

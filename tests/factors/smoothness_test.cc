@@ -26,8 +26,7 @@ TEST(Smoothness, ValueAndJacobiansAreThoseOfAutodiff) {
   for (int draw = 0; draw < 200; ++draw) {
     const auto angles = testing::DelicateAngles();
     const SE3 begin = random.Pose();
-    const SE3 end =
-        Plus(begin, random.Tangent(std::min(angles[draw % angles.size()], 3.1), 1.0));
+    const SE3 end = Plus(begin, random.Tangent(std::min(angles[draw % angles.size()], 3.1), 1.0));
     const SmoothnessTerm term = RandomTerm(&random);
     const SmoothnessCost factor(term);
     const ceres::AutoDiffCostFunction<SmoothnessTwin, 6, 7, 7> twin(

@@ -73,8 +73,8 @@ TEST(SO3, JacobiansMeetTheirSeriesAndTheirInverses) {
   Random random(2);
   for (double angle : DelicateAngles()) {
     const Eigen::Vector3d theta = angle * random.Direction();
-    EXPECT_TRUE(so3::LeftJacobian(theta).isApprox(
-        JacobianSeries<Eigen::Matrix3d>(so3::Hat(theta)), 1e-14));
+    EXPECT_TRUE(
+        so3::LeftJacobian(theta).isApprox(JacobianSeries<Eigen::Matrix3d>(so3::Hat(theta)), 1e-14));
     EXPECT_TRUE(so3::RightJacobian(theta).isApprox(so3::LeftJacobian(theta).transpose(), 1e-14));
     EXPECT_TRUE((so3::LeftJacobianInverse(theta) * so3::LeftJacobian(theta)).isIdentity(1e-13));
     EXPECT_TRUE((so3::RightJacobianInverse(theta) * so3::RightJacobian(theta)).isIdentity(1e-13));
@@ -105,8 +105,8 @@ TEST(SE3, AdjointMovesATangentAcrossAPose) {
   for (int i = 0; i < 50; ++i) {
     const SE3 T = random.Pose();
     const Vector6d tau = random.Tangent(0.7, 0.5);
-    EXPECT_TRUE(ToMatrix(T * se3::Exp(tau))
-                    .isApprox(ToMatrix(se3::Exp(se3::Adjoint(T) * tau) * T), 1e-13));
+    EXPECT_TRUE(
+        ToMatrix(T * se3::Exp(tau)).isApprox(ToMatrix(se3::Exp(se3::Adjoint(T) * tau) * T), 1e-13));
   }
 }
 
@@ -117,8 +117,8 @@ TEST(SE3, JacobiansMeetTheirSeriesAndTheirInverses) {
     const Matrix6d left = se3::LeftJacobian(tau);
     EXPECT_TRUE(left.isApprox(JacobianSeries<Matrix6d>(se3::AdjointAlgebra(tau)), 1e-14)) << angle;
     EXPECT_TRUE((se3::LeftJacobianInverse(tau) * left).isIdentity(1e-12)) << angle;
-    EXPECT_TRUE(
-        (se3::RightJacobianInverse(tau) * se3::RightJacobian(tau)).isIdentity(1e-12)) << angle;
+    EXPECT_TRUE((se3::RightJacobianInverse(tau) * se3::RightJacobian(tau)).isIdentity(1e-12))
+        << angle;
     EXPECT_TRUE(left.isApprox(se3::Adjoint(se3::Exp(tau)) * se3::RightJacobian(tau), 1e-13));
   }
 }
@@ -131,9 +131,9 @@ TEST(SE3, RightJacobianIsTheDerivativeOfExp) {
     Matrix6d numeric;
     for (int i = 0; i < 6; ++i) {
       const Vector6d step = h * Vector6d::Unit(i);
-      numeric.col(i) =
-          (Minus(se3::Exp(tau + step), se3::Exp(tau)) - Minus(se3::Exp(tau - step), se3::Exp(tau))) /
-          (2 * h);
+      numeric.col(i) = (Minus(se3::Exp(tau + step), se3::Exp(tau)) -
+                        Minus(se3::Exp(tau - step), se3::Exp(tau))) /
+                       (2 * h);
     }
     EXPECT_LT((numeric - se3::RightJacobian(tau)).norm(), 1e-8) << angle;
   }
@@ -175,9 +175,11 @@ TEST(Interpolation, JacobiansAreTheDerivatives) {
       for (int i = 0; i < 6; ++i) {
         const Vector6d d = h * Vector6d::Unit(i);
         const Vector6d wrt_begin = (Minus(Interpolate(Plus(begin, d), end, alpha), at) -
-                                    Minus(Interpolate(Plus(begin, -d), end, alpha), at)) / (2 * h);
+                                    Minus(Interpolate(Plus(begin, -d), end, alpha), at)) /
+                                   (2 * h);
         const Vector6d wrt_end = (Minus(Interpolate(begin, Plus(end, d), alpha), at) -
-                                  Minus(Interpolate(begin, Plus(end, -d), alpha), at)) / (2 * h);
+                                  Minus(Interpolate(begin, Plus(end, -d), alpha), at)) /
+                                 (2 * h);
         EXPECT_LT((J.wrt_begin.col(i) - wrt_begin).norm(), 1e-8);
         EXPECT_LT((J.wrt_end.col(i) - wrt_end).norm(), 1e-8);
       }

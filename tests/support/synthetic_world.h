@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/sensing/lidar_scan.h"
+#include "core/odometry/sensing/lidar_scan.h"
 #include "manifolds/se3.h"
 #include "tests/support/random_poses.h"
 
@@ -62,8 +62,7 @@ struct SyntheticWorld {
         double range = std::numeric_limits<double>::infinity();
         for (const Box& box : boxes) range = std::min(range, box.Intersect(T.t, T.q * ray));
         range += random.Gaussian(noise_m);
-        scan.points.push_back(
-            {(range * ray).cast<float>(), 1.0F, scan.stamp_ns + offset_ns});
+        scan.points.push_back({(range * ray).cast<float>(), 1.0F, scan.stamp_ns + offset_ns});
       }
     }
     return scan;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/io/messages/message_header.h"
-#include "core/sensing/lidar_scan.h"
+#include "core/odometry/sensing/lidar_scan.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/comparison/lockstep_totals.h"
-#include "core/estimation/odometry.h"
+#include "core/odometry/odometry.h"
 #include "tests/support/synthetic_world.h"
 
 namespace trajlo {

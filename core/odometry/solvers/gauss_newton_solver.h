@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/odometry/solvers/window_solver.h"
+
+namespace trajlo {
+
+/// The paper's solver: H xi = -g by dense Cholesky, T_k ← T_k ⊕ xi_k, no damping, no line search.
+class GaussNewtonSolver final : public WindowSolver {
+ public:
+  GaussNewtonSolver(const SolverOptions& options, ThreadPool* threads)
+      : options_(options), evaluator_(threads) {}
+
+  SolveSummary Solve(WindowProblem* problem) override;
+
+ private:
+  SolverOptions options_;
+  RegistrationEvaluator evaluator_;
+  std::vector<RegistrationNormalEquations> registration_;
+  WindowNormalEquations window_;
+};
+
+}  // namespace trajlo

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/map/map_pyramid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/random_poses.h"
+
+namespace trajlo {
+namespace {
+
+/// Voxels of 0.4, 0.8, 1.6 and 3.2 m, to which the scenes below are made.
+MapPyramid MakeMap() {
+  MapPyramidOptions options;
+  options.finest.voxel_size_m = 0.4;
+  options.finest.min_point_spacing_m = 0.08;
+  return MapPyramid(options);
+}
+
+TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
+  // A noisy floor: small planes of it tilt, and the wide one hardly does.
+  testing::Random random(13);
+  std::vector<Eigen::Vector3d> floor;
+  for (int i = 0; i < 20000; ++i) {
+    floor.emplace_back(random.Uniform(-4, 4), random.Uniform(-4, 4), random.Gaussian(0.015));
+  }
+  MapPyramid map = MakeMap();
+  map.Insert(floor);
+  PlaneFitOptions wide, fine;
+  fine.max_wide_flatness = 0.0;
+  const Eigen::Vector3d ray(0.8, 0.0, -0.6);
+  double tilt_wide = 0.0, tilt_fine = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d query(random.Uniform(-2, 2), random.Uniform(-2, 2), 0.0);
+    Plane plane;
+    ASSERT_TRUE(map.FindPlane(query, ray, wide, 1.0, &plane));
+    EXPECT_GT(plane.scale, 1.0);
+    EXPECT_GT(plane.weight, 0.7);  // Not divided by the ratio of its level.
+    tilt_wide += plane.normal_world.head<2>().norm();
+    ASSERT_TRUE(map.FindPlane(query, ray, fine, 1.0, &plane));
+    EXPECT_LE(plane.scale, 2.0);
+    tilt_fine += plane.normal_world.head<2>().norm();
+  }
+  EXPECT_LT(tilt_wide, 0.4 * tilt_fine);
+}
+
+TEST(MapPyramid, TakesTheFinePlaneWhereTheWideOneIsNotThin) {
+  // Two steps of 0.3 m: at the middle of one, its own level.
+  std::vector<Eigen::Vector3d> stairs;
+  for (double x = -1.5; x < 1.5; x += 0.05) {
+    for (double y = -1.5; y < 1.5; y += 0.05) {
+      stairs.emplace_back(x, y, 0.3 * std::floor(x / 0.5));
+    }
+  }
+  MapPyramid map = MakeMap();
+  map.Insert(stairs);
+  Plane plane;
+  ASSERT_TRUE(map.FindPlane({0.25, 0.0, 0.01}, {0.8, 0.0, -0.6}, {}, 1.0, &plane));
+  EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
+  EXPECT_NEAR(plane.offset_m * plane.normal_world.z(), 0.0, 1e-6);
+  EXPECT_LT(plane.scale, 4.0);
+}
+
+TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
+  std::vector<Eigen::Vector3d> wall_then_post;
+  for (double y = -4.0; y < 4.0; y += 0.05) {
+    for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(5.0, y, z);
+  }
+  // A post of 0.2 m, its face 0.35 m before the wall: the coarser levels have no room for it.
+  for (double y = 1.5; y < 1.71; y += 0.05) {
+    for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(4.65, y, z);
+  }
+  MapPyramid map = MakeMap();
+  map.Insert(wall_then_post);
+  const Eigen::Vector3d ray(1.0, 0.0, 0.0);
+  Plane plane;
+  ASSERT_TRUE(map.FindPlane({4.66, 1.6, 1.0}, ray, {}, 1.0, &plane));
+  EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 4.65, 0.01);
+  PlaneFitOptions anywhere;
+  anywhere.max_wide_distance_in_widths = 100.0;
+  ASSERT_TRUE(map.FindPlane({4.66, 1.6, 1.0}, ray, anywhere, 1.0, &plane));
+  EXPECT_GT(plane.offset_m * plane.normal_world.x(), 4.9);
+  ASSERT_TRUE(map.FindPlane({5.01, -2.0, 1.0}, ray, {}, 1.0, &plane));
+  EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 5.0, 1e-6);
+  EXPECT_GT(plane.scale, 1.0);
+}
+
+TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
+  // One scan line over a facade with recesses: level, along the ray. The facade itself, x = 5, is
+  // sampled sparsely around it.
+  testing::Random random(13);
+  std::vector<Eigen::Vector3d> points;
+  for (double y = -1.0; y < 1.0; y += 0.01) {
+    points.emplace_back(5.0 + random.Uniform(0.0, 0.3), y, random.Gaussian(0.003));
+  }
+  for (double z : {-1.4, -0.7, 0.7, 1.4}) {
+    for (double y = -2.0; y < 2.0; y += 0.03) {
+      points.emplace_back(5.0 + random.Uniform(0.0, 0.3), y, z);
+    }
+  }
+  MapPyramid map = MakeMap();
+  map.Insert(points);
+  const Eigen::Vector3d query(5.15, 0.0, 0.0), ray(1.0, 0.0, 0.0);
+  PlaneFitOptions options;
+  Plane plane;
+  ASSERT_TRUE(map.FindPlane(query, ray, options, 1.0, &plane));
+  EXPECT_GT(std::abs(plane.normal_world.x()), 0.9);
+  options.min_incidence_sine = 0.0;
+  options.max_wide_flatness = 0.0;
+  ASSERT_TRUE(map.FindPlane(query, ray, options, 1.0, &plane));
+  EXPECT_GT(std::abs(plane.normal_world.z()), 0.9);
+}
+
+TEST(MapPyramid, TakesAPlaneAlongTheRayWhereThereIsNoOther) {
+  std::vector<Eigen::Vector3d> ground;
+  for (double x = -1.0; x < 1.0; x += 0.05) {
+    for (double y = -1.0; y < 1.0; y += 0.05) ground.emplace_back(x, y, 0.0);
+  }
+  MapPyramid map = MakeMap();
+  map.Insert(ground);
+  Plane plane;
+  ASSERT_TRUE(map.FindPlane({0, 0, 0}, {0.999, 0.0, -0.0447}, {}, 1.0, &plane));
+  EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
+  EXPECT_EQ(plane.scale, 1.0);
+}
+
+}  // namespace
+}  // namespace trajlo

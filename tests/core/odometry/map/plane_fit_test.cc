@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/map/plane_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "tests/support/random_poses.h"
+
+namespace trajlo {
+namespace {
+
+/// Eight points of a random plane patch of the given half sizes and thickness.
+Neighbors Patch(testing::Random* random, const Eigen::Vector3d& normal,
+                const Eigen::Vector3d& center, double length, double width, double thickness) {
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  Neighbors neighbors;
+  neighbors.origin_world = center;
+  neighbors.count = 8;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d p = random->Uniform(-length, length) * u +
+                              random->Uniform(-width, width) * v +
+                              random->Gaussian(thickness) * normal;
+    neighbors.x[i] = static_cast<float>(p.x());
+    neighbors.y[i] = static_cast<float>(p.y());
+    neighbors.z[i] = static_cast<float>(p.z());
+    neighbors.squared_distance[i] = static_cast<float>(p.squaredNorm());
+  }
+  return neighbors;
+}
+
+TEST(PlaneFit, FindsThePlaneOfANoiselessPatchAnywhereInTheWorld) {
+  testing::Random random;
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3d normal = random.Direction();
+    const Eigen::Vector3d center = 1e5 * random.Direction();
+    Plane plane;
+    ASSERT_TRUE(FitPlane(Patch(&random, normal, center, 0.5, 0.5, 0.0), {}, 0.1, &plane));
+    EXPECT_NEAR(std::abs(plane.normal_world.dot(normal)), 1.0, 1e-6);
+    EXPECT_NEAR(plane.normal_world.dot(center), plane.offset_m, 1e-5);
+  }
+}
+
+TEST(PlaneFit, AgreesWithAnIterativeEigensolver) {
+  testing::Random random(2);
+  for (int i = 0; i < 200; ++i) {
+    const Neighbors n = Patch(&random, random.Direction(), {1, 2, 3}, 0.5, 0.3, 0.02);
+    Plane plane;
+    if (!FitPlane(n, {}, 0.1, &plane)) continue;
+    Eigen::Matrix<double, 3, 8> P;
+    for (int j = 0; j < 8; ++j) P.col(j) << n.x[j], n.y[j], n.z[j];
+    const Eigen::Vector3d mean = P.rowwise().mean();
+    const Eigen::Matrix3d C = (P.colwise() - mean) * (P.colwise() - mean).transpose() / 8.0;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(C);
+    EXPECT_NEAR(std::abs(plane.normal_world.dot(eigen.eigenvectors().col(0))), 1.0, 1e-9);
+    EXPECT_NEAR(plane.thickness_m, std::sqrt(eigen.eigenvalues()[0]), 1e-8);
+    EXPECT_NEAR(plane.width_m, std::sqrt(eigen.eigenvalues()[1]), 1e-8);
+  }
+}
+
+TEST(PlaneFit, RefusesAScanLineAThickCloudAndTooFewPoints) {
+  testing::Random random(3);
+  Plane plane;
+  EXPECT_FALSE(FitPlane(Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 0.01, 0.001), {}, 0.1, &plane))
+      << "points on one ring have no normal";
+  EXPECT_FALSE(FitPlane(Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 1.0, 0.6), {}, 0.1, &plane));
+  Neighbors few = Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 1.0, 0.0);
+  few.count = 4;
+  EXPECT_FALSE(FitPlane(few, {}, 0.1, &plane));
+  few.count = 0;
+  EXPECT_FALSE(FitPlane(few, {}, 0.1, &plane));
+}
+
+}  // namespace
+}  // namespace trajlo

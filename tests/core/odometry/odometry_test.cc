@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/odometry.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cstring>
+#include <limits>
+
+#include "tests/support/synthetic_world.h"
+
+namespace trajlo {
+namespace {
+
+using testing::SyntheticWorld;
+
+OdometryOptions RoomOptions() {
+  OdometryOptions options;
+  options.segmenter.registration_voxel_m = 0.5;
+  return options;
+}
+
+/// At rest for half a second, then ever faster on a bent path, with a turn.
+SE3 StartsAtRest(double t) {
+  const double s = std::max(0.0, t - 0.5);
+  const double way = s * s * s / (1.0 + s * s);
+  Vector6d tau;
+  tau << 0.8 * way, 0.2 * way, 0.1 * std::sin(way), 0.05 * std::sin(2 * way), 0, 0.4 * way;
+  return se3::Exp(tau);
+}
+
+/// A constant twist, which linear interpolation represents exactly: 1.5 m/s and 0.6 rad/s.
+SE3 ConstantTwist(double t) {
+  Vector6d twist;
+  twist << 1.4, 0.5, 0.1, 0.1, 0.0, 0.6;
+  return se3::Exp(t * twist);
+}
+
+struct RunResult {
+  std::unique_ptr<Odometry> odometry;
+  std::vector<WindowStatistics> windows;
+};
+
+RunResult RunOn(const SyntheticWorld& world, const OdometryOptions& options, int sweeps,
+                const std::function<void(int, LidarScan*)>& change = {}) {
+  RunResult run;
+  run.odometry = std::make_unique<Odometry>(options);
+  run.odometry->OnWindow([&](const WindowStatistics& w) { run.windows.push_back(w); });
+  for (int i = 0; i < sweeps; ++i) {
+    LidarScan scan = world.Sweep(i);
+    if (change) change(i, &scan);
+    run.odometry->AddScan(scan);
+  }
+  run.odometry->Finish();
+  return run;
+}
+
+/// Largest position error against the truth, in the frame of the first pose.
+double LargestError(const SyntheticWorld& world, const Trajectory& trajectory, double until_s) {
+  const SE3 T_start = world.T_world_body(0.0);
+  double largest = 0.0;
+  for (const ControlPose& pose : trajectory.poses()) {
+    const double t = 1e-9 * static_cast<double>(pose.t_ns - world.start_ns);
+    if (t > until_s) break;
+    const SE3 truth = T_start.Inverse() * world.T_world_body(t);
+    largest = std::max(largest, (truth.t - pose.T_world_body.t).norm());
+  }
+  return largest;
+}
+
+void ExpectFinite(const Trajectory& trajectory) {
+  ASSERT_FALSE(trajectory.empty());
+  for (const ControlPose& pose : trajectory.poses()) ASSERT_TRUE(pose.T_world_body.IsFinite());
+}
+
+class EverySolver : public ::testing::TestWithParam<SolverKind> {};
+
+TEST_P(EverySolver, FollowsAPathThatStartsAtRest) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  OdometryOptions options = RoomOptions();
+  options.solver.kind = GetParam();
+  const RunResult run = RunOn(world, options, 30);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 2.95), 0.03);
+  EXPECT_FALSE(run.odometry->lost_at_ns());
+}
+
+TEST_P(EverySolver, FollowsAPathThatStartsInMotion) {
+  SyntheticWorld world;
+  world.T_world_body = ConstantTwist;
+  OdometryOptions options = RoomOptions();
+  options.solver.kind = GetParam();
+  const RunResult run = RunOn(world, options, 25);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 2.45), 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver,
+                         ::testing::Values(SolverKind::kCeres, SolverKind::kGaussNewton));
+
+TEST(Odometry, AStationaryAssumptionWouldHaveLostTheMovingStart) {
+  SyntheticWorld world;
+  world.T_world_body = ConstantTwist;
+  OdometryOptions options = RoomOptions();
+  options.initialization.estimate_motion = false;
+  const RunResult run = RunOn(world, options, 15);
+  EXPECT_GT(LargestError(world, run.odometry->trajectory(), 1.45), 0.1);
+}
+
+TEST(Odometry, StaysWhereItIsWhileTheSensorStandsStill) {
+  const SyntheticWorld world;
+  const RunResult run = RunOn(world, RoomOptions(), 20);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 1.95), 0.005);
+}
+
+TEST(Odometry, CeresAndGaussNewtonGiveTheSameTrajectory) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  for (const int iterations : {1, 3}) {
+    OdometryOptions options = RoomOptions();
+    options.solver.iterations_per_round = iterations;
+    options.solver.kind = SolverKind::kCeres;
+    const RunResult ceres = RunOn(world, options, 15);
+    options.solver.kind = SolverKind::kGaussNewton;
+    const RunResult gauss_newton = RunOn(world, options, 15);
+    const auto& a = ceres.odometry->trajectory().poses();
+    const auto& b = gauss_newton.odometry->trajectory().poses();
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      // The last bits differ, and a window hands its rounding on to the next.
+      EXPECT_LT((a[i].T_world_body.t - b[i].T_world_body.t).norm(), 1e-7) << i;
+    }
+  }
+}
+
+TEST(Odometry, HandsOutACovarianceForEveryPose) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  OdometryOptions options = RoomOptions();
+  options.covariance_scale = 4.0;
+  Odometry odometry(options);
+  std::vector<Matrix6d> covariances;
+  odometry.OnPose([&](const ControlPose&, const Matrix6d& C) { covariances.push_back(C); });
+  for (int i = 0; i < 10; ++i) odometry.AddScan(world.Sweep(i));
+  odometry.Finish();
+  ASSERT_EQ(covariances.size(), odometry.trajectory().poses().size());
+  EXPECT_EQ(covariances.front(), Matrix6d::Zero());  // It defines the world.
+  for (std::size_t i = 1; i < covariances.size(); ++i) {
+    EXPECT_EQ(covariances[i], covariances[i].transpose());
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(covariances[i]);
+    EXPECT_GT(eigen.eigenvalues()[0], 0.0);
+    EXPECT_LT(std::sqrt(eigen.eigenvalues()[5]), 0.1);
+  }
+}
+
+TEST(Odometry, GivesTheSameBytesForOneAndTwoThreads) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  OdometryOptions options = RoomOptions();
+  options.threads = 1;
+  const RunResult one = RunOn(world, options, 15);
+  options.threads = 2;
+  const RunResult two = RunOn(world, options, 15);
+  const auto& a = one.odometry->trajectory().poses();
+  const auto& b = two.odometry->trajectory().poses();
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(std::memcmp(a[i].T_world_body.data(), b[i].T_world_body.data(), 56), 0);
+  }
+}
+
+TEST(Odometry, WorksOnTheKdTreeMapToo) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  OdometryOptions options = RoomOptions();
+  options.map.finest.kind = MapKind::kKdTree;
+  const RunResult run = RunOn(world, options, 15);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 1.45), 0.03);
+}
+
+TEST(Odometry, WorksWithQrMarginalizationAndWithoutFirstEstimates) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  OdometryOptions options = RoomOptions();
+  options.marginalization.use_qr = true;
+  EXPECT_LT(LargestError(world, RunOn(world, options, 15).odometry->trajectory(), 1.45), 0.03);
+  options.marginalization.first_estimate_jacobians = false;
+  EXPECT_LT(LargestError(world, RunOn(world, options, 15).odometry->trajectory(), 1.45), 0.03);
+}
+
+TEST(Odometry, AGapInTheStreamIsBridgedBySmoothness) {
+  SyntheticWorld world;
+  world.T_world_body = ConstantTwist;
+  OdometryOptions options = RoomOptions();
+  RunResult run;
+  Odometry odometry(options);
+  unsigned flags = 0;
+  odometry.OnWindow([&](const WindowStatistics& w) { flags |= w.flags; });
+  for (int i = 0; i < 24; ++i) {
+    if (i == 12 || i == 13) continue;
+    odometry.AddScan(world.Sweep(i));
+  }
+  odometry.Finish();
+  ExpectFinite(odometry.trajectory());
+  EXPECT_TRUE(flags & kFlagNoPoints);
+  EXPECT_LT(LargestError(world, odometry.trajectory(), 2.35), 0.1);
+}
+
+TEST(Odometry, AJumpOfDaysIsOneGapAndTheRunGoesOn) {
+  SyntheticWorld world;
+  const std::int64_t days_ns = 5LL * 24 * 3600 * 1'000'000'000;
+  const RunResult run = RunOn(world, RoomOptions(), 16, [&](int i, LidarScan* scan) {
+    if (i < 8) return;
+    scan->stamp_ns += days_ns;
+    for (LidarPoint& point : scan->points) point.t_ns += days_ns;
+  });
+  ExpectFinite(run.odometry->trajectory());
+  EXPECT_LT(run.windows.size(), 60u);
+  bool flagged = false;
+  for (const ControlPose& pose : run.odometry->trajectory().poses()) {
+    flagged = flagged || (pose.flags & kFlagGap);
+  }
+  EXPECT_TRUE(flagged);
+}
+
+TEST(Odometry, ScansOfNaNsEmptyScansAndRepeatedScansDoNotStopIt) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  const LidarScan repeated = world.Sweep(5);
+  const RunResult run = RunOn(world, RoomOptions(), 20, [&](int i, LidarScan* scan) {
+    if (i == 8) {
+      for (LidarPoint& point : scan->points) {
+        point.xyz_m.setConstant(std::numeric_limits<float>::quiet_NaN());
+      }
+    }
+    if (i == 11) scan->points.clear();
+    if (i == 14) *scan = repeated;
+  });
+  ExpectFinite(run.odometry->trajectory());
+  EXPECT_EQ(run.odometry->point_counts().not_finite, 32 * 360);
+  EXPECT_EQ(run.odometry->point_counts().too_late, 32 * 360);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 1.95), 0.1);
+}
+
+TEST(Odometry, SaysThatItIsLostWhenTheWorldDisappears) {
+  SyntheticWorld world;
+  // A search among points without order is slow: few of them.
+  world.beams = 16;
+  world.columns = 60;
+  const RunResult run = RunOn(world, RoomOptions(), 40, [&](int i, LidarScan* scan) {
+    if (i < 10) return;
+    testing::Random random(static_cast<unsigned>(i));
+    for (LidarPoint& point : scan->points) {
+      point.xyz_m = (random.Uniform(20, 90) * random.Direction()).cast<float>();
+    }
+  });
+  ASSERT_TRUE(run.odometry->lost_at_ns());
+  EXPECT_GE(*run.odometry->lost_at_ns(), world.start_ns + 900'000'000);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 0.85), 0.05);
+  ExpectFinite(run.odometry->trajectory());
+}
+
+TEST(Odometry, NothingAndOneScanAreValidRecordings) {
+  SyntheticWorld world;
+  Odometry nothing(RoomOptions());
+  nothing.Finish();
+  EXPECT_TRUE(nothing.trajectory().empty());
+  const RunResult run = RunOn(world, RoomOptions(), 1);
+  ExpectFinite(run.odometry->trajectory());
+}
+
+TEST(Odometry, RunsInDiscreteModeOnMotionCorrectedScans) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  OdometryOptions options = RoomOptions();
+  options.window.segments = 3;
+  const auto correct_motion = [&](int i, LidarScan* scan) {
+    // All points as if measured at the scan's stamp.
+    const SE3 T_stamp = world.T_world_body(0.1 * i);
+    for (LidarPoint& point : scan->points) {
+      const double t = 1e-9 * static_cast<double>(point.t_ns - world.start_ns);
+      point.xyz_m =
+          (T_stamp.Inverse() * (world.T_world_body(t) * point.xyz_m.cast<double>().eval()))
+              .cast<float>();
+      point.t_ns = scan->stamp_ns;
+    }
+    scan->has_point_times = false;
+  };
+  const RunResult run = RunOn(world, options, 25, correct_motion);
+  ASSERT_EQ(run.odometry->trajectory().poses().size(), 25u);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 2.5), 0.03);
+}
+
+/// At rest, then half a second of shaking at 2 and 4 Hz, then at rest again.
+SE3 Shaken(double t) {
+  const double s = std::clamp(t - 0.8, 0.0, 0.5);
+  return SE3(so3::Exp({0.0, 0.0, 0.25 * (1.0 - std::cos(8.0 * M_PI * s))}),
+             {0.1 * (1.0 - std::cos(4.0 * M_PI * s)), 0.0, 0.0});
+}
+
+OdometryOptions AdaptiveOptions() {
+  OdometryOptions options = RoomOptions();
+  options.adaptive_interval.enabled = true;
+  return options;
+}
+
+TEST(Odometry, ShortensSegmentsInAShakeAndFollowsItBetter) {
+  SyntheticWorld world;
+  world.T_world_body = Shaken;
+  const RunResult fixed = RunOn(world, RoomOptions(), 32);
+  const RunResult adaptive = RunOn(world, AdaptiveOptions(), 32);
+  const auto& poses = adaptive.odometry->trajectory().poses();
+  std::int64_t shortest_ns = 1'000'000'000;
+  for (std::size_t i = 2; i < poses.size(); ++i) {
+    const std::int64_t duration_ns = poses[i].t_ns - poses[i - 1].t_ns;
+    const double t = 1e-9 * static_cast<double>(poses[i].t_ns - world.start_ns);
+    if (t < 0.8 || (t > 2.8 && t < 3.15)) {
+      EXPECT_EQ(duration_ns, 30'000'000) << t;
+    }
+    if (t < 3.15) shortest_ns = std::min(shortest_ns, duration_ns);
+  }
+  EXPECT_EQ(shortest_ns, 10'000'000);
+  EXPECT_LT(LargestError(world, adaptive.odometry->trajectory(), 3.15),
+            LargestError(world, fixed.odometry->trajectory(), 3.15));
+}
+
+TEST(Odometry, ChoosesTheSameIntervalsForAnyThreadsAndAnyLengthOfScans) {
+  SyntheticWorld world;
+  world.T_world_body = Shaken;
+  OdometryOptions options = AdaptiveOptions();
+  options.threads = 1;
+  const RunResult one = RunOn(world, options, 16);
+  options.threads = 2;
+  Odometry two(options);
+  for (int i = 0; i < 16; ++i) {
+    const LidarScan sweep = world.Sweep(i);
+    for (const std::size_t part : {0, 1, 2}) {  // Cut into thirds.
+      LidarScan scan = sweep;
+      const auto at = [&](std::size_t third) {
+        return sweep.points.begin() + static_cast<std::ptrdiff_t>(third * sweep.points.size() / 3);
+      };
+      scan.points.assign(at(part), at(part + 1));
+      two.AddScan(scan);
+    }
+  }
+  two.Finish();
+  const auto& a = one.odometry->trajectory().poses();
+  const auto& b = two.trajectory().poses();
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_GT(a.size(), 1300u / 30u + 10u) << "no interval was shortened";
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].t_ns, b[i].t_ns);
+    EXPECT_EQ(std::memcmp(a[i].T_world_body.data(), b[i].T_world_body.data(), 56), 0);
+  }
+}
+
+TEST(Odometry, DeskewingByPredictionIsAsGoodAtConstantTwistAndWorseInAShake) {
+  SyntheticWorld world;
+  const auto errors = [&world](Deskewing deskewing) {
+    OdometryOptions options = RoomOptions();
+    options.segmenter.interval_s = 0.1;
+    options.window.deskewing = deskewing;
+    return LargestError(world, RunOn(world, options, 20).odometry->trajectory(), 1.95);
+  };
+  world.T_world_body = ConstantTwist;
+  EXPECT_LT(errors(Deskewing::kPredicted), 0.03);
+  world.T_world_body = [](double t) {
+    const double s = std::max(0.0, t - 0.5);
+    return SE3(so3::Exp({0.0, 0.0, 0.15 * (1.0 - std::cos(8.0 * s))}), {0.3 * s * s, 0.0, 0.0});
+  };
+  EXPECT_GT(errors(Deskewing::kPredicted), 2.0 * errors(Deskewing::kEstimated));
+}
+
+TEST(Odometry, TwoLidarsWithExtrinsicsMakeOneTrajectory) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  const SE3 T_body_second(so3::Exp({0.0, M_PI / 2, 0.0}), {-0.35, 0.03, -0.05});
+  SyntheticWorld second = world;
+  second.T_world_body = [&](double t) { return StartsAtRest(t) * T_body_second; };
+  OdometryOptions options = RoomOptions();
+  options.segmenter.T_body_lidar = {SE3(), T_body_second};
+  Odometry odometry(options);
+  for (int i = 0; i < 20; ++i) {
+    odometry.AddScan(world.Sweep(i));
+    LidarScan scan = second.Sweep(i);
+    scan.lidar_id = 1;
+    odometry.AddScan(scan);
+  }
+  odometry.Finish();
+  EXPECT_LT(LargestError(world, odometry.trajectory(), 1.95), 0.02);
+}
+
+TEST(Odometry, KeepsTheMapBounded) {
+  SyntheticWorld world;
+  OdometryOptions options = RoomOptions();
+  const RunResult ten = RunOn(world, options, 10);
+  const RunResult thirty = RunOn(world, options, 30);
+  EXPECT_LT(static_cast<double>(thirty.odometry->map().size()),
+            1.3 * static_cast<double>(ten.odometry->map().size()));
+}
+
+}  // namespace
+}  // namespace trajlo

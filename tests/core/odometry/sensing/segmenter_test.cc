@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/sensing/segmenter.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <set>
+
+namespace trajlo {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+/// A scan of one point a millisecond, all far apart, the i-th at x = 1000 + first_ms + i.
+LidarScan MakeScan(std::int64_t first_ms, int count, int lidar = 0) {
+  LidarScan scan;
+  scan.lidar_id = lidar;
+  scan.stamp_ns = first_ms * kMs;
+  for (int i = 0; i < count; ++i) {
+    scan.points.push_back(
+        {{5.0F + static_cast<float>((first_ms + i) % 100), static_cast<float>(10 * lidar), 1.0F},
+         0.0F,
+         (first_ms + i) * kMs});
+  }
+  return scan;
+}
+
+SegmenterOptions SmallOptions() {
+  SegmenterOptions options;
+  options.first_interval_s = 0.1;
+  options.interval_s = 0.03;
+  options.map_voxel_m = 0.5;
+  options.registration_voxel_m = 2.0;
+  return options;
+}
+
+std::vector<SegmentCloud> Drain(Segmenter* segmenter) {
+  std::vector<SegmentCloud> clouds;
+  while (auto cloud = segmenter->Next()) clouds.push_back(std::move(*cloud));
+  return clouds;
+}
+
+TEST(Segmenter, CutsScansOfAnyLengthAtTheSameBoundaries) {
+  std::vector<std::vector<SegmentCloud>> results;
+  for (int scan_ms : {7, 50, 100, 400}) {
+    Segmenter segmenter(SmallOptions());
+    for (int t = 0; t < 2800; t += scan_ms) segmenter.AddScan(MakeScan(t, scan_ms));
+    segmenter.Finish();
+    results.push_back(Drain(&segmenter));
+  }
+  for (const auto& clouds : results) {
+    ASSERT_GE(clouds.size(), 90u);
+    for (std::size_t k = 0; k < 90; ++k) {
+      EXPECT_EQ(clouds[k].begin_ns, results[0][k].begin_ns);
+      ASSERT_EQ(clouds[k].map_points.size(), results[0][k].map_points.size());
+      for (std::size_t i = 0; i < clouds[k].map_points.size(); ++i) {
+        EXPECT_EQ(clouds[k].map_points[i].alpha, results[0][k].map_points[i].alpha);
+      }
+    }
+  }
+}
+
+TEST(Segmenter, HasNoHolesBetweenSegmentsAndTimesWithinThem) {
+  Segmenter segmenter(SmallOptions());
+  for (int t = 0; t < 1000; t += 100) segmenter.AddScan(MakeScan(t, 100));
+  segmenter.Finish();
+  const auto clouds = Drain(&segmenter);
+  EXPECT_EQ(clouds[0].end_ns - clouds[0].begin_ns, 100 * kMs);
+  for (std::size_t k = 1; k < clouds.size(); ++k) {
+    EXPECT_EQ(clouds[k].begin_ns, clouds[k - 1].end_ns);
+    EXPECT_EQ(clouds[k].end_ns - clouds[k].begin_ns, 30 * kMs);
+    for (const SegmentPoint& point : clouds[k].map_points) {
+      EXPECT_GE(point.alpha, 0.0F);
+      EXPECT_LT(point.alpha, 1.0F);
+    }
+  }
+}
+
+/// Asks for segments of 1, 3, 2, 1, 3, 2, ... slots, as far as they are complete.
+void DrainByTurns(Segmenter* segmenter, std::vector<SegmentCloud>* clouds) {
+  const int slots[] = {1, 3, 2};
+  while (auto cloud = segmenter->Next(slots[clouds->size() % 3])) {
+    clouds->push_back(std::move(*cloud));
+  }
+}
+
+TEST(Segmenter, CutsSegmentsOfChangingLengthWithoutHolesOrLostPoints) {
+  SegmenterOptions options = SmallOptions();
+  std::vector<std::vector<SegmentCloud>> results;
+  for (int scan_ms : {7, 40, 100, 400}) {
+    Segmenter segmenter(options, 3);
+    std::vector<SegmentCloud> clouds;
+    for (int t = 0; t < 2800; t += scan_ms) {
+      segmenter.AddScan(MakeScan(t, std::min(scan_ms, 2800 - t)));
+      DrainByTurns(&segmenter, &clouds);
+    }
+    segmenter.Finish();
+    DrainByTurns(&segmenter, &clouds);
+    results.push_back(std::move(clouds));
+  }
+  for (const auto& clouds : results) {
+    ASSERT_EQ(clouds.size(), results[0].size());
+    std::size_t points = 0;
+    for (std::size_t k = 0; k < clouds.size(); ++k) {
+      const SegmentCloud& cloud = clouds[k];
+      EXPECT_EQ(cloud.begin_ns, k == 0 ? 0 : clouds[k - 1].end_ns);
+      EXPECT_EQ(cloud.end_ns, results[0][k].end_ns);
+      ASSERT_EQ(cloud.map_points.size(), results[0][k].map_points.size());
+      points += cloud.map_points.size();
+      for (std::size_t i = 0; i < cloud.map_points.size(); ++i) {
+        const SegmentPoint& point = cloud.map_points[i];
+        EXPECT_EQ(point.alpha, results[0][k].map_points[i].alpha);
+        const double t_ms =
+            1e-6 * (static_cast<double>(cloud.begin_ns) +
+                    point.alpha * static_cast<double>(cloud.end_ns - cloud.begin_ns));
+        EXPECT_NEAR(std::fmod(t_ms + 0.5, 100.0) - 0.5, point.p_body_m.x() - 5.0, 1e-3);
+      }
+    }
+    EXPECT_EQ(points, 2800u);
+  }
+  EXPECT_EQ(results[0][1].end_ns - results[0][1].begin_ns, 30 * kMs);
+  EXPECT_EQ(results[0][2].end_ns - results[0][2].begin_ns, 20 * kMs);
+  EXPECT_EQ(results[0][3].end_ns - results[0][3].begin_ns, 10 * kMs);
+}
+
+TEST(Segmenter, ASegmentOfSeveralSlotsEndsEarlyBeforeAGap) {
+  Segmenter segmenter(SmallOptions(), 3);
+  segmenter.AddScan(MakeScan(0, 105));
+  segmenter.AddScan(MakeScan(5000, 100));
+  ASSERT_TRUE(segmenter.Next(3));
+  const auto before = segmenter.Next(3);
+  const auto gap = segmenter.Next(3);
+  const auto after = segmenter.Next(3);
+  ASSERT_TRUE(before && gap && after);
+  EXPECT_EQ(before->end_ns, 110 * kMs);
+  EXPECT_EQ(before->map_points.size(), 5u);
+  EXPECT_TRUE(gap->is_gap);
+  EXPECT_EQ(gap->end_ns, 5000 * kMs);
+  EXPECT_EQ(after->end_ns, 5030 * kMs);
+}
+
+TEST(Segmenter, DropsAndCountsPointsThatCannotBeUsed) {
+  LidarScan scan = MakeScan(0, 10);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  scan.points[0].xyz_m = {nan, 0, 0};
+  scan.points[1].xyz_m = {0, inf, 0};
+  scan.points[2].xyz_m = {0, 0, 0};
+  scan.points[3].xyz_m = {0.1F, 0, 0};
+  scan.points[4].xyz_m = {400, 0, 0};
+  Segmenter segmenter(SmallOptions());
+  segmenter.AddScan(scan);
+  segmenter.Finish();
+  EXPECT_EQ(segmenter.counts().received, 10);
+  EXPECT_EQ(segmenter.counts().not_finite, 2);
+  EXPECT_EQ(segmenter.counts().too_near, 2);
+  EXPECT_EQ(segmenter.counts().too_far, 1);
+  EXPECT_EQ(segmenter.counts().Kept(), 5);
+}
+
+TEST(Segmenter, MergesLidarsInTheBodyFrameAndWaitsForTheSlowerOne) {
+  SegmenterOptions options = SmallOptions();
+  options.T_body_lidar = {SE3(), SE3(Eigen::Quaterniond::Identity(), {0, 0, 100})};
+  options.max_range_m = 1000;
+  Segmenter segmenter(options);
+  segmenter.AddScan(MakeScan(0, 200, 0));
+  EXPECT_TRUE(Drain(&segmenter).empty()) << "the second LiDAR has not spoken yet";
+  segmenter.AddScan(MakeScan(0, 150, 1));
+  const auto clouds = Drain(&segmenter);
+  ASSERT_EQ(clouds.size(), 2u) << "up to 130 ms: the segment that ends at 160 ms is open";
+  bool first = false, second = false;
+  for (const SegmentPoint& point : clouds[1].map_points) {
+    (point.p_body_m.z() > 50 ? second : first) = true;
+  }
+  EXPECT_TRUE(first && second);
+}
+
+TEST(Segmenter, DoesNotWaitForeverForALidarThatFellSilent) {
+  SegmenterOptions options = SmallOptions();
+  options.T_body_lidar = {SE3(), SE3()};
+  Segmenter segmenter(options);
+  for (int t = 0; t < 3000; t += 100) segmenter.AddScan(MakeScan(t, 100, 0));
+  EXPECT_GT(Drain(&segmenter).size(), 70u);
+}
+
+TEST(Segmenter, BridgesAShortPauseWithEmptySegmentsAndAJumpOfDaysWithOneGap) {
+  Segmenter segmenter(SmallOptions());
+  segmenter.AddScan(MakeScan(0, 200));
+  segmenter.AddScan(MakeScan(500, 100));
+  const std::int64_t days_ms = 3LL * 24 * 3600 * 1000;
+  segmenter.AddScan(MakeScan(days_ms, 200));
+  segmenter.Finish();
+  const auto clouds = Drain(&segmenter);
+  ASSERT_LT(clouds.size(), 40u);
+  int gaps = 0, empty = 0;
+  for (std::size_t k = 0; k < clouds.size(); ++k) {
+    gaps += clouds[k].is_gap;
+    empty += !clouds[k].is_gap && clouds[k].map_points.empty();
+    if (k > 0) {
+      EXPECT_EQ(clouds[k].begin_ns, clouds[k - 1].end_ns);
+    }
+  }
+  EXPECT_EQ(gaps, 1);
+  EXPECT_GE(empty, 8);
+}
+
+TEST(Segmenter, DropsARepeatedScanAndTimeThatGoesBackwards) {
+  Segmenter segmenter(SmallOptions());
+  segmenter.AddScan(MakeScan(0, 300));
+  Drain(&segmenter);
+  segmenter.AddScan(MakeScan(0, 100));
+  EXPECT_EQ(segmenter.counts().too_late, 100);
+  EXPECT_TRUE(Drain(&segmenter).empty());
+}
+
+TEST(Segmenter, MakesOneSegmentAScanWhereThereAreNoPointTimes) {
+  Segmenter segmenter(SmallOptions());
+  for (int i = 0; i < 3; ++i) {
+    LidarScan scan = MakeScan(100 * i, 50);
+    scan.has_point_times = false;
+    for (LidarPoint& point : scan.points) point.t_ns = scan.stamp_ns;
+    segmenter.AddScan(scan);
+  }
+  const auto clouds = Drain(&segmenter);
+  ASSERT_EQ(clouds.size(), 3u);
+  EXPECT_EQ(clouds[1].begin_ns, 0);
+  EXPECT_EQ(clouds[1].end_ns, 100 * kMs);
+  for (const SegmentPoint& point : clouds[1].map_points) EXPECT_EQ(point.alpha, 1.0F);
+}
+
+TEST(Segmenter, TurnsRaysUpByTheVerticalCorrection) {
+  SegmenterOptions options = SmallOptions();
+  options.vertical_correction_deg = 0.205;
+  Segmenter segmenter(options);
+  LidarScan scan = MakeScan(0, 1);
+  scan.points[0].xyz_m = {30.0F, 40.0F, 0.0F};
+  segmenter.AddScan(scan);
+  segmenter.Finish();
+  const Eigen::Vector3f p = Drain(&segmenter)[0].map_points[0].p_body_m;
+  EXPECT_NEAR(p.norm(), 50.0, 1e-4);
+  EXPECT_NEAR(std::asin(p.z() / 50.0) * 180.0 / M_PI, 0.205, 1e-4);
+  EXPECT_NEAR(p.y() / p.x(), 4.0 / 3.0, 1e-5);
+}
+
+TEST(Segmenter, RegistersAtMostSoManyPointsSpreadOverTheSegment) {
+  SegmenterOptions options = SmallOptions();
+  options.first_interval_s = 0.001;
+  options.interval_s = 0.1;
+  options.map_voxel_m = options.registration_voxel_m = 0.01;
+  options.max_registration_points = 7;
+  Segmenter segmenter(options);
+  segmenter.AddScan(MakeScan(0, 101));
+  segmenter.Finish();
+  const auto clouds = Drain(&segmenter);
+  ASSERT_GE(clouds.size(), 2u);
+  ASSERT_EQ(clouds[1].registration_points.size(), 7u);
+  EXPECT_GT(clouds[1].map_points.size(), 90u);
+  for (std::size_t i = 1; i < 7; ++i) {
+    EXPECT_NEAR(clouds[1].registration_points[i].alpha - clouds[1].registration_points[i - 1].alpha,
+                1.0 / 7, 0.02);
+  }
+}
+
+TEST(VoxelFilter, KeepsTheFirstPointOfEachCellWithItsTime) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<float> coordinate(-20, 20);
+  std::vector<SegmentPoint> points, kept;
+  for (int i = 0; i < 20000; ++i) {
+    points.push_back({{coordinate(engine), coordinate(engine), coordinate(engine)},
+                      static_cast<float>(i) / 20000.0F});
+  }
+  VoxelFilter filter(1.7);
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    filter.Filter(points, &kept);
+    std::set<std::array<int, 3>> cells;
+    std::vector<float> expected;
+    for (const SegmentPoint& p : points) {
+      std::array<int, 3> cell;
+      for (int a = 0; a < 3; ++a) {
+        cell[a] = static_cast<int>(std::floor(p.p_body_m[a] * static_cast<float>(1.0 / 1.7)));
+      }
+      if (cells.insert(cell).second) expected.push_back(p.alpha);
+    }
+    ASSERT_EQ(kept.size(), expected.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].alpha, expected[i]);
+  }
+}
+
+}  // namespace
+}  // namespace trajlo
