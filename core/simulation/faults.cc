@@ -52,4 +52,10 @@ bool FaultInjector::Apply(SimulatedScan* simulated) {
   return true;
 }
 
+bool FaultInjector::Repeats(const SimulatedScan& simulated) const {
+  CounterRandom random(seed_, 0x4e9ea7, static_cast<std::uint64_t>(simulated.scan.lidar_id),
+                       static_cast<std::uint64_t>(simulated.index));
+  return random.Uniform() < config_.repeated_scan_fraction;
+}
+
 }  // namespace trajlo::simulation

@@ -12,6 +12,8 @@ namespace trajlo::simulation {
 /// anew for every scan or point.
 struct FaultConfig {
   double dropped_scan_fraction = 0.0;
+  /// The scan comes twice.
+  double repeated_scan_fraction = 0.0;
   /// Of the points, which are kept but become NaN.
   double nan_point_fraction = 0.0;
   /// The scan carries the stamp of the one before.
@@ -38,6 +40,8 @@ class FaultInjector {
 
   /// False if the scan is lost.
   bool Apply(SimulatedScan* simulated);
+  /// Whether a scan that was not lost comes a second time, as it is.
+  bool Repeats(const SimulatedScan& simulated) const;
 
  private:
   FaultConfig config_;

@@ -4,20 +4,18 @@
 #include <stdexcept>
 
 #include "core/simulation/motions/motion_makers.h"
-#include "core/simulation/motions/smooth.h"
+#include "core/simulation/motions/pace.h"
 
 namespace trajlo::simulation {
 
-double StartRamp(const MotionConfig& config, double t_s, double ramp_s) {
-  return config.moving_start ? 1.0 : SmoothStep((t_s - config.rest_s) / ramp_s);
-}
-
 PoseFunction MakeMotion(const MotionConfig& config, const SceneRoutes& routes, double duration_s,
                         std::uint64_t seed) {
+  CheckPace(config);
   if (config.kind == "walk") return MakeWalk(config, routes, duration_s, seed);
   if (config.kind == "flight") return MakeFlight(config, routes, duration_s, seed);
   if (config.kind == "drive") return MakeDrive(config, routes, duration_s, seed);
   if (config.kind == "bursts") return MakeBursts(config, routes, duration_s, seed);
+  if (config.kind == "glances") return MakeGlances(config, routes, duration_s, seed);
   if (config.kind == "spin") return MakeSpin(config, routes, seed);
   if (config.kind == "swing") return MakeSwing(config, routes, seed);
   if (config.kind == "twist") return MakeTwist(config, routes, seed);
@@ -27,7 +25,8 @@ PoseFunction MakeMotion(const MotionConfig& config, const SceneRoutes& routes, d
 }
 
 std::vector<std::string> MotionKinds() {
-  return {"walk", "flight", "drive", "spin", "swing", "bursts", "twist", "replay", "still"};
+  return {"walk",   "flight",  "drive", "spin",   "swing",
+          "bursts", "glances", "twist", "replay", "still"};
 }
 
 }  // namespace trajlo::simulation

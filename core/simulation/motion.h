@@ -18,6 +18,7 @@ struct MotionConfig {
   /// spin: a platform at the start of the flying route that is spun up about the vertical.
   /// swing: a LiDAR on a rope there.
   /// bursts: a walk with violent turns and jolts in between.
+  /// glances: a walk with quick looks to the side and shakes of the head in between.
   /// twist: T_0 Exp(t xi), a constant velocity in the body frame, from there.
   /// replay: the poses of a TUM file, joined by a cubic spline.
   /// still: it stands still.
@@ -26,6 +27,16 @@ struct MotionConfig {
   double rest_s = 1.8;
   bool moving_start = false;
   double speed_mps = 1.2;
+  /// Along a route: by how much the speed swells and ebbs, as a share of it.
+  double unevenness = 0.2;
+  /// Along a route: how it gains speed after the rest; 0 is an easy start, as long as suits the
+  /// kind. A drive also gains no more than that after a bend.
+  double acceleration_mps2 = 0.0;
+  /// Along a route: how long it keeps its speed before it brakes to a stand (0: for ever), how hard
+  /// it brakes, and how long it stands before it starts again.
+  double cruise_s = 0.0;
+  double braking_mps2 = 0.0;
+  double stop_s = 2.0;
   /// Of the body above the walking or driving route.
   double height_m = 1.3;
   /// Scales all shaking of body and hand; 0 switches it off.
@@ -41,9 +52,11 @@ struct MotionConfig {
   double rope_m = 1.2;
   double swing_deg = 60.0;
   double swing_hz = 0.72;
-  /// bursts: the size of a turn, and how often.
+  /// bursts and glances: the largest turn, and how often.
   double burst_deg = 60.0;
   double burst_every_s = 1.5;
+  /// glances: how long it takes to turn to the side.
+  double glance_s = 0.4;
   /// replay: the file, in TUM format; and whether it is moved to start where the flying route does
   /// (only turned about the vertical) or keeps its coordinates.
   std::string replay_file;

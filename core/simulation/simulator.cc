@@ -201,7 +201,9 @@ void SimulateScans(const Simulator& simulator, int threads,
   for (const Sweep& sweep : sweeps) {
     SimulatedScan simulated;
     arena.execute([&] { simulated = simulator.SimulateScan(sweep.lidar_id, sweep.index); });
-    if (faults.Apply(&simulated)) consume(simulated);
+    if (!faults.Apply(&simulated)) continue;
+    consume(simulated);
+    if (faults.Repeats(simulated)) consume(simulated);
   }
 }
 

@@ -16,6 +16,8 @@ PoseFunction MakeDrive(const MotionConfig& config, const SceneRoutes& routes, do
                        std::uint64_t seed);
 PoseFunction MakeBursts(const MotionConfig& config, const SceneRoutes& routes, double duration_s,
                         std::uint64_t seed);
+PoseFunction MakeGlances(const MotionConfig& config, const SceneRoutes& routes, double duration_s,
+                         std::uint64_t seed);
 PoseFunction MakeSpin(const MotionConfig& config, const SceneRoutes& routes, std::uint64_t seed);
 PoseFunction MakeSwing(const MotionConfig& config, const SceneRoutes& routes, std::uint64_t seed);
 PoseFunction MakeTwist(const MotionConfig& config, const SceneRoutes& routes, std::uint64_t seed);
@@ -24,8 +26,5 @@ PoseFunction MakeReplay(const MotionConfig& config, const SceneRoutes& routes, d
 
 /// Where the flying route starts, `height_m` above the ground, heading along the route.
 SE3 SpotOfFlight(const SceneRoutes& routes, double height_m);
-
-/// From 0 to 1 over `ramp_s` once the rest is over; 1 all the time for a moving start.
-double StartRamp(const MotionConfig& config, double t_s, double ramp_s);
 
 }  // namespace trajlo::simulation

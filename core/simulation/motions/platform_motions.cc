@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/simulation/motions/motion_makers.h"
+#include "core/simulation/motions/pace.h"
 #include "core/simulation/motions/smooth.h"
 
 namespace trajlo::simulation {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The motions that follow a route of the scene: walk, flight, drive and bursts.
+// The motions that follow a route of the scene: walk, flight and drive.
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "core/simulation/motions/motion_makers.h"
+#include "core/simulation/motions/pace.h"
 #include "core/simulation/motions/quintic_spline.h"
 #include "core/simulation/motions/smooth.h"
 
@@ -55,8 +57,8 @@ QuinticSpline FollowRoute(const RoutePath& path, double dt_s, double duration_s,
 constexpr double kSplineReach = 3.0;
 
 /// The speed of somebody who is never quite even.
-double Uneven(double speed, double t_s) {
-  return speed * (1.0 + 0.2 * std::sin(2.0 * M_PI * 0.09 * t_s));
+double Uneven(const MotionConfig& config, double t_s) {
+  return config.speed_mps * (1.0 + config.unevenness * std::sin(2.0 * M_PI * 0.09 * t_s));
 }
 
 /// The speed at which a bend costs 2.5 m/s² sideways.
@@ -65,6 +67,20 @@ double SpeedInBend(const RoutePath& path, double along_m) {
   const double turn =
       path.HeadingAt(along_m + kLook) - path.HeadingAt(std::max(0.0, along_m - kLook));
   return std::sqrt(2.5 / std::max(1e-3, std::abs(turn) / (2.0 * kLook)));
+}
+
+/// The speed that leaves room to brake with 2.5 m/s² before the bends ahead, and that can have been
+/// gained with `acceleration_mps2` since those behind.
+double SpeedAboutBends(const RoutePath& path, double along_m, double acceleration_mps2) {
+  constexpr double kReach = 60.0;
+  constexpr double kStep = 1.0;
+  double squared = std::numeric_limits<double>::infinity();
+  for (double ahead = -kReach; ahead <= kReach; ahead += kStep) {
+    const double bend = SpeedInBend(path, along_m + ahead);
+    const double rate = ahead < 0.0 ? acceleration_mps2 : 2.5;
+    squared = std::min(squared, bend * bend + 2.0 * rate * std::abs(ahead));
+  }
+  return std::sqrt(squared);
 }
 
 }  // namespace
@@ -76,7 +92,7 @@ PoseFunction MakeWalk(const MotionConfig& config, const SceneRoutes& routes, dou
   const QuinticSpline spline = FollowRoute(
       path, kDt, duration_s,
       [&](double t, double) {
-        return Uneven(config.speed_mps, t) * StartRamp(config, t - kSplineReach * kDt, 1.5);
+        return Uneven(config, t) * Pace(config, t - kSplineReach * kDt, 1.5);
       },
       [&](double, double z) { return z + config.height_m; });
   const double s = config.shake;
@@ -121,8 +137,7 @@ PoseFunction MakeFlight(const MotionConfig& config, const SceneRoutes& routes, d
       [&](double t, double) {
         // Away from the spot once it has climbed a little.
         const double late = t - kSplineReach * kDt - 0.25 * config.climb_s;
-        return Uneven(config.speed_mps, t) *
-               StartRamp(config, late, std::max(1.5, config.speed_mps / 2.5)) *
+        return Uneven(config, t) * Pace(config, late, std::max(1.5, config.speed_mps / 2.5)) *
                until_landed(t + kSplineReach * kDt + 0.5 * config.climb_s, 2.5);
       },
       [&](double t, double z) {
@@ -161,8 +176,12 @@ PoseFunction MakeDrive(const MotionConfig& config, const SceneRoutes& routes, do
   const QuinticSpline spline = FollowRoute(
       path, kDt, duration_s,
       [&](double t, double along) {
-        const double speed = std::min(Uneven(config.speed_mps, t), SpeedInBend(path, along));
-        return speed * StartRamp(config, t - kSplineReach * kDt, 4.0);
+        const double pace = Pace(config, t - kSplineReach * kDt, 4.0);
+        if (config.acceleration_mps2 == 0.0) {
+          return std::min(Uneven(config, t), SpeedInBend(path, along)) * pace;
+        }
+        return std::min(Uneven(config, t) * pace,
+                        SpeedAboutBends(path, along, config.acceleration_mps2));
       },
       [&](double, double z) { return z + config.height_m; });
   const double s = config.shake;
@@ -180,43 +199,6 @@ PoseFunction MakeDrive(const MotionConfig& config, const SceneRoutes& routes, do
     const double roll = 0.005 * left + on * rolling(t);
     return SE3(FromYawPitchRoll(base.w(), pitch, roll),
                base.head<3>() + Vector3d(0.0, 0.0, on * heave(t)));
-  };
-}
-
-PoseFunction MakeBursts(const MotionConfig& config, const SceneRoutes& routes, double duration_s,
-                        std::uint64_t seed) {
-  struct Burst {
-    double t_s, width_s;
-    Vector3d turn, jolt;
-  };
-  std::vector<Burst> bursts;
-  CounterRandom random(seed, 0xb0757);
-  const double first = config.moving_start ? 0.5 : config.rest_s + 1.5;
-  double t = first;
-  while (t < duration_s) {
-    const auto direction = [&]() -> Vector3d {
-      return Vector3d(random.Gaussian(), random.Gaussian(), random.Gaussian()).normalized();
-    };
-    bursts.push_back({t, random.Uniform(0.08, 0.16),
-                      direction() * kRadPerDeg * config.burst_deg * random.Uniform(0.5, 1.0),
-                      direction() * random.Uniform(0.05, 0.15)});
-    t += config.burst_every_s * random.Uniform(0.7, 1.3);
-  }
-  const PoseFunction walk = MakeWalk(config, routes, duration_s, seed);
-  return [=](double t_s) {
-    Vector3d turn = Vector3d::Zero();
-    Vector3d jolt = Vector3d::Zero();
-    for (const Burst& burst : bursts) {
-      // A Gaussian bump: there and back again, with every derivative continuous. It is cut where it
-      // is below the rounding of a double.
-      const double x = (t_s - burst.t_s) / burst.width_s;
-      if (std::abs(x) > 6.5) continue;
-      const double bump = std::exp(-x * x);
-      turn += bump * burst.turn;
-      jolt += bump * burst.jolt;
-    }
-    const SE3 T = walk(t_s);
-    return SE3(T.q * so3::Exp(turn), T.t + jolt);
   };
 }
 

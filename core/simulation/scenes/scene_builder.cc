@@ -20,12 +20,14 @@ const std::map<std::string, Builder>& Builders() {
       {"facade", BuildFacade},
       {"forest", BuildForest},
       {"hall", BuildHall},
+      {"long_facade", BuildLongFacade},
       {"manhattan", BuildManhattan},
       {"motorway", BuildMotorway},
       {"office", BuildOffice},
       {"square", BuildSquare},
       {"stairwell", BuildStairwell},
       {"street", BuildStreet},
+      {"tall_room", BuildTallRoom},
   };
   return builders;
 }

@@ -34,11 +34,13 @@ SceneBlueprint BuildCourtyard(std::uint64_t seed);
 SceneBlueprint BuildFacade(std::uint64_t seed);
 SceneBlueprint BuildForest(std::uint64_t seed);
 SceneBlueprint BuildHall(std::uint64_t seed);
+SceneBlueprint BuildLongFacade(std::uint64_t seed);
 SceneBlueprint BuildManhattan(std::uint64_t seed);
 SceneBlueprint BuildMotorway(std::uint64_t seed);
 SceneBlueprint BuildOffice(std::uint64_t seed);
 SceneBlueprint BuildSquare(std::uint64_t seed);
 SceneBlueprint BuildStairwell(std::uint64_t seed);
 SceneBlueprint BuildStreet(std::uint64_t seed);
+SceneBlueprint BuildTallRoom(std::uint64_t seed);
 
 }  // namespace trajlo::simulation
