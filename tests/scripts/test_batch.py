@@ -9,7 +9,9 @@ import subprocess
 import time
 import unittest
 
-from support import SCRIPTS, FolderTest, built
+from support import ROOT, SCRIPTS, FolderTest, built
+
+from trajlo_batch.suite import read_suite
 
 SUITE = """
 title: Two short flights
@@ -47,6 +49,15 @@ def processes_with(text):
         if text in command and int(entry.name) != os.getpid():
             found.append(int(entry.name))
     return found
+
+
+class HalvesTest(unittest.TestCase):
+    def test_every_scenario_of_the_simulator_is_in_a_half(self):
+        listed = subprocess.run([built("trajlo_simulate"), "--list"], capture_output=True,
+                                text=True, check=True).stdout
+        halves = [item.scenario for name in ("choose", "confirm")
+                  for item in read_suite(ROOT / "config" / "suites" / f"{name}.yaml").sequences]
+        self.assertEqual({line.split()[0] for line in listed.splitlines()}, set(halves))
 
 
 class BatchTest(FolderTest):

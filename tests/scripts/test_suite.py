@@ -100,6 +100,22 @@ class SuiteTest(FolderTest):
         self.assertEqual(len(suite.sequences), 3 * len(groups))
         self.assertTrue(any(item.degenerate for item in suite.sequences))
 
+    def test_no_scenario_confirms_what_was_chosen_on_it(self):
+        choose, confirm = (read_suite(ROOT / "config" / "suites" / f"{name}.yaml")
+                           for name in ("choose", "confirm"))
+        chosen, confirming = ({item.scenario for item in suite.sequences}
+                              for suite in (choose, confirm))
+        self.assertFalse(chosen & confirming)
+        self.assertLessEqual(abs(len(chosen) - len(confirming)), 1)
+        for suite, scenarios in ((choose, chosen), (confirm, confirming)):
+            self.assertEqual(len(suite.sequences), 3 * len(scenarios))
+        # Kinds that both halves must know, by what their names begin with.
+        for kind in ("hall", "square", "facade", "long_facade", "atrium", "tall_room", "office",
+                     "corridor", "stairwell", "forest", "bursts", "spin", "swing", "street",
+                     "motorway", "manhattan", "faults"):
+            for scenarios in (chosen, confirming):
+                self.assertTrue(any(name.startswith(kind) for name in scenarios), kind)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -55,6 +55,16 @@ TEST(Faults, ScansAreDroppedAtTheAskedRate) {
   EXPECT_NEAR(static_cast<double>(Through(config, 2000).size()), 1400.0, 95.0);
 }
 
+TEST(Faults, ScansComeTwiceAtTheAskedRate) {
+  FaultConfig config;
+  EXPECT_FALSE(FaultInjector(config, 5, kStart).Repeats(MakeScan(0, 0)));
+  config.repeated_scan_fraction = 0.2;
+  const FaultInjector faults(config, 5, kStart);
+  int repeated = 0;
+  for (int i = 0; i < 2000; ++i) repeated += faults.Repeats(MakeScan(0, i)) ? 1 : 0;
+  EXPECT_NEAR(repeated, 400, 75);
+}
+
 TEST(Faults, PointsBecomeNanAtTheAskedRate) {
   FaultConfig config;
   config.nan_point_fraction = 0.1;

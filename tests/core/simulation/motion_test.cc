@@ -55,6 +55,7 @@ struct MotionCase {
   const char* kind;
   const char* scene;
   bool moving_start;
+  bool stops = false;
 };
 std::ostream& operator<<(std::ostream& out, const MotionCase& c) { return out << c.kind; }
 
@@ -66,6 +67,12 @@ class AnyMotion : public testing::TestWithParam<MotionCase> {
     config.moving_start = GetParam().moving_start;
     config.landing = std::string(GetParam().kind) == "flight";
     config.speed_mps = std::string(GetParam().kind) == "drive" ? 10.0 : 1.5;
+    if (GetParam().stops) {
+      config.acceleration_mps2 = 2.0;
+      config.cruise_s = 2.0;
+      config.braking_mps2 = 4.0;
+      config.stop_s = 1.0;
+    }
     if (std::string(GetParam().kind) == "twist") config.turn_rate_rad_s = 0.5;
     return MakeMotion(config, Routes(GetParam().scene), kDuration, 3);
   }
@@ -75,13 +82,19 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(MotionCase{"walk", "office", false}, MotionCase{"walk", "stairwell", true},
                     MotionCase{"flight", "hall", false}, MotionCase{"flight", "facade", true},
                     MotionCase{"drive", "street", false}, MotionCase{"drive", "manhattan", true},
-                    MotionCase{"bursts", "hall", false}, MotionCase{"spin", "courtyard", false},
+                    MotionCase{"walk", "office", false, true},
+                    MotionCase{"flight", "tall_room", false, true},
+                    MotionCase{"drive", "street", false, true},
+                    MotionCase{"drive", "motorway", true, true},
+                    MotionCase{"bursts", "hall", false}, MotionCase{"glances", "office", false},
+                    MotionCase{"glances", "corridor", true}, MotionCase{"spin", "courtyard", false},
                     MotionCase{"spin", "courtyard", true}, MotionCase{"swing", "hall", false},
                     MotionCase{"twist", "hall", false}, MotionCase{"twist", "hall", true},
                     MotionCase{"still", "hall", false}),
     [](const auto& instance) {
       return std::string(instance.param.kind) + "_" + instance.param.scene +
-             (instance.param.moving_start ? "_moving" : "_resting");
+             (instance.param.moving_start ? "_moving" : "_resting") +
+             (instance.param.stops ? "_stopping" : "");
     });
 
 TEST_P(AnyMotion, HasContinuousAccelerations) {
@@ -142,6 +155,32 @@ TEST(Motion, ARopeSwingsBeyondThreeG) {
     largest = std::max(largest, (Acceleration(pose, t, 1e-3) + gravity).norm());
   }
   EXPECT_GT(largest, 3.0 * 9.81);
+}
+
+TEST(Motion, AGlanceTurnsAndTurnsBackQuickly) {
+  MotionConfig config;
+  config.kind = "glances";
+  config.burst_deg = 90.0;
+  config.shake = 0.0;
+  const PoseFunction glances = MakeMotion(config, Routes("corridor"), 20.0, 1);
+  config.kind = "walk";
+  const PoseFunction walk = MakeMotion(config, Routes("corridor"), 20.0, 1);
+  double largest = 0.0;
+  double fastest = 0.0;
+  double straight_s = 0.0;
+  for (double t = 4.0; t < 20.0; t += 0.01) {
+    const Eigen::Vector3d turn = so3::Log(walk(t).q.conjugate() * glances(t).q);
+    EXPECT_LT(turn.head<2>().norm(), 1e-9);
+    EXPECT_LT((walk(t).t - glances(t).t).norm(), 2.0 * 0.12 + 1e-9);
+    largest = std::max(largest, std::abs(turn.z()));
+    fastest = std::max(fastest, AngularVelocity(glances, t, 1e-3).norm());
+    if (turn.norm() == 0.0) straight_s += 0.01;
+  }
+  EXPECT_GT(largest, 70.0 * M_PI / 180.0);
+  EXPECT_LE(largest, 90.0 * M_PI / 180.0 + 1e-9);
+  // A smooth step of 90 degrees within 0.4 s, at its steepest.
+  EXPECT_GT(fastest, 0.75 * (35.0 / 16.0) * 0.5 * M_PI / 0.4);
+  EXPECT_GT(straight_s, 4.0);
 }
 
 TEST(Motion, AConstantTwistIsOne) {

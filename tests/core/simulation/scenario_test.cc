@@ -85,8 +85,8 @@ double Clearance(const Scene& scene, const Eigen::Vector3d& position) {
   return clearance;
 }
 
-TEST_P(AnyScenario, KeepsClearOfWallsForAMinuteAndThreeSeeds) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+TEST_P(AnyScenario, KeepsClearOfWallsForAMinuteAndSixSeeds) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Scenario scenario = MakeScenario(GetParam());
     scenario.seed = seed;
     scenario.duration_s = 60.0;

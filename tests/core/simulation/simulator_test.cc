@@ -193,6 +193,22 @@ TEST(Simulator, TheScansOfARigComeInTheOrderInWhichTheirSweepsEnd) {
   EXPECT_EQ(ids, (std::vector<int>{0, 1, 0, 1, 0, 1, 0, 1, 0}));
 }
 
+TEST(Simulator, ARepeatedScanIsTheSameInAllItsPoints) {
+  Scenario scenario = CubeScenario("os1_16", 1.0);
+  scenario.faults.repeated_scan_fraction = 1.0;
+  scenario.faults.stamp_jitter_s = 0.003;
+  std::vector<LidarScan> scans;
+  SimulateScans(CubeSimulator(scenario), 0,
+                [&](const SimulatedScan& simulated) { scans.push_back(simulated.scan); });
+  ASSERT_EQ(scans.size(), 20U);
+  for (std::size_t i = 0; i < scans.size(); i += 2) {
+    EXPECT_EQ(scans[i].stamp_ns, scans[i + 1].stamp_ns);
+    ASSERT_EQ(scans[i].points.size(), scans[i + 1].points.size());
+    EXPECT_EQ(scans[i].points.back().xyz_m, scans[i + 1].points.back().xyz_m);
+    EXPECT_EQ(scans[i].points.back().t_ns, scans[i + 1].points.back().t_ns);
+  }
+}
+
 TEST(Simulator, MotionCorrectedScansFitTheirPoseAtMidSweep) {
   Scenario scenario = CubeScenario("hdl64e", 0.3);
   scenario.motion_corrected = true;
