@@ -30,7 +30,7 @@ struct MotionConfig {
   /// Along a route: by how much the speed swells and ebbs, as a share of it.
   double unevenness = 0.2;
   /// Along a route: how it gains speed after the rest; 0 is an easy start, as long as suits the
-  /// kind. A drive also gains no more than that after a bend.
+  /// kind. A drive with one brakes in time before bends, and gains no more than that after them.
   double acceleration_mps2 = 0.0;
   /// Along a route: how long it keeps its speed before it brakes to a stand (0: for ever), how hard
   /// it brakes, and how long it stands before it starts again.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The walks with something sudden in between: bursts and glances.
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "core/simulation/motions/motion_makers.h"
@@ -15,8 +16,11 @@ namespace {
 
 constexpr double kRadPerDeg = M_PI / 180.0;
 
-/// When the first sudden thing happens.
+/// When the first sudden thing happens. Throws std::invalid_argument if they would never end.
 double FirstTime(const MotionConfig& config) {
+  if (!(config.burst_every_s > 0.0 && config.glance_s > 0.0)) {
+    throw std::invalid_argument("motion.burst_every_s and motion.glance_s must be positive");
+  }
   return config.moving_start ? 0.5 : config.rest_s + 1.5;
 }
 

@@ -283,6 +283,16 @@ TEST_F(Replay, RefusesAFileThatIsShorterThanTheRecording) {
   EXPECT_NO_THROW(Make(false, 1.0));
 }
 
+TEST(MakeMotion, RefusesBurstsAndGlancesThatNeverEnd) {
+  MotionConfig config;
+  config.kind = "glances";
+  config.glance_s = 0.0;
+  EXPECT_THROW(MakeMotion(config, Routes(), 1.0, 1), std::invalid_argument);
+  config.kind = "bursts";
+  config.burst_every_s = 0.0;
+  EXPECT_THROW(MakeMotion(config, Routes(), 1.0, 1), std::invalid_argument);
+}
+
 TEST(MakeMotion, RefusesAnUnknownKind) {
   MotionConfig config;
   config.kind = "jump";
