@@ -140,8 +140,8 @@ const std::vector<Entry>& Entries() {
          s.motion.turn_rate_rad_s = 35.0;
          return s;
        }},
-      {"swing_courtyard_avia", "swung on a rope in a courtyard, beyond 3 g; Livox Avia",
-       [] { return OnTheSpot("courtyard", "swing", MakeLidar("avia")); }},
+      {"swing_office_avia", "swung on a rope in a room of the office, beyond 3 g; Livox Avia",
+       [] { return OnTheSpot("office", "swing", MakeLidar("avia")); }},
       {"bursts_office_os0_64", "violent turns and jolts on a walk through the office; OS0-64",
        [] { return Bursts("office", MakeLidar("os0_64", SE3(), 512)); }},
       {"stairwell_mid360", "up the stairs of four storeys; Livox MID-360",
