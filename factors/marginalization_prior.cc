@@ -3,28 +3,51 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 
 #include "factors/square_root.h"
 #include "manifolds/se3_manifold.h"
 
 namespace trajlo {
+namespace {
 
-Matrix6d MarginalizationPrior::Jacobian(const SE3& pose, bool first_estimate) const {
-  if (first_estimate) return sqrt_information;
-  return sqrt_information * se3::RightJacobianInverse(Minus(pose, linearization_point));
+Vector6d Difference(const MarginalizationPrior& prior, const std::vector<SE3>& s, int i) {
+  return Minus(s[static_cast<std::size_t>(i)],
+               prior.linearization_points[static_cast<std::size_t>(i)]);
+}
+
+}  // namespace
+
+Eigen::VectorXd MarginalizationPrior::Residual(const std::vector<SE3>& s) const {
+  Eigen::VectorXd r = offset;
+  for (int i = 0; i < poses(); ++i) {
+    r.noalias() += sqrt_information.middleCols<6>(6 * i) * Difference(*this, s, i);
+  }
+  return r;
+}
+
+Eigen::MatrixXd MarginalizationPrior::Jacobian(const std::vector<SE3>& s) const {
+  Eigen::MatrixXd J = sqrt_information;
+  for (int i = 0; i < poses() && !first_estimate_jacobians; ++i) {
+    J.middleCols<6>(6 * i) =
+        sqrt_information.middleCols<6>(6 * i) * se3::RightJacobianInverse(Difference(*this, s, i));
+  }
+  return J;
 }
 
 MarginalizationPrior MakeAnchor(const SE3& pose, double sigma_translation_m,
                                 double sigma_rotation_rad) {
   MarginalizationPrior prior;
-  prior.linearization_point = pose;
+  prior.linearization_points = {pose};
+  prior.offset = Eigen::VectorXd::Zero(6);
+  prior.sqrt_information = Eigen::MatrixXd::Zero(6, 6);
   prior.sqrt_information.diagonal().head<3>().setConstant(1.0 / sigma_translation_m);
   prior.sqrt_information.diagonal().tail<3>().setConstant(1.0 / sigma_rotation_rad);
   return prior;
 }
 
-MarginalizationPrior MarginalizeSchur(const Matrix12d& H, const Vector12d& g,
-                                      const SE3& linearization_point) {
+MarginalizationPrior MarginalizeSchur(const Eigen::MatrixXd& H, const Eigen::VectorXd& g,
+                                      const std::vector<SE3>& staying) {
   const Matrix6d H_ll = H.topLeftCorner<6, 6>();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H_ll);
   const Vector6d values = eigen.eigenvalues();
@@ -33,37 +56,45 @@ MarginalizationPrior MarginalizeSchur(const Matrix12d& H, const Vector12d& g,
       values.unaryExpr([smallest](double v) { return v > smallest ? 1.0 / v : 0.0; });
   const Matrix6d H_ll_inverse =
       eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
-  const Matrix6d gain = H.bottomLeftCorner<6, 6>() * H_ll_inverse;
-  Matrix6d H_m = H.bottomRightCorner<6, 6>() - gain * H.topRightCorner<6, 6>();
+  const Eigen::Index rest = H.rows() - 6;
+  const Eigen::MatrixXd gain = H.bottomLeftCorner(rest, 6) * H_ll_inverse;
+  Eigen::MatrixXd H_m = H.bottomRightCorner(rest, rest) - gain * H.topRightCorner(6, rest);
   H_m = 0.5 * (H_m + H_m.transpose().eval());
-  const Vector6d b_m = g.tail<6>() - gain * g.head<6>();
-  const SquareRoot<6> root = MakeSquareRoot<6>(H_m, b_m);
-  return {linearization_point, root.S, root.s};
+  const Eigen::VectorXd b_m = g.tail(rest) - gain * g.head<6>();
+  const auto root = MakeSquareRoot<Eigen::Dynamic>(H_m, b_m);
+  return {staying, root.S, root.s};
 }
 
-MarginalizationPrior MarginalizeQr(const Eigen::Matrix<double, Eigen::Dynamic, 12>& jacobian,
-                                   const Eigen::VectorXd& residual,
-                                   const SE3& linearization_point) {
-  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(jacobian.rows(), 13), 13);
-  stacked.topLeftCorner(jacobian.rows(), 12) = jacobian;
+MarginalizationPrior MarginalizeQr(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
+                                   const std::vector<SE3>& staying) {
+  const Eigen::Index columns = jacobian.cols();
+  Eigen::MatrixXd stacked =
+      Eigen::MatrixXd::Zero(std::max(jacobian.rows(), columns + 1), columns + 1);
+  stacked.topLeftCorner(jacobian.rows(), columns) = jacobian;
   stacked.topRightCorner(jacobian.rows(), 1) = residual;
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
   const Eigen::MatrixXd R = qr.matrixQR().triangularView<Eigen::Upper>();
-  MarginalizationPrior prior;
-  prior.linearization_point = linearization_point;
-  prior.sqrt_information = R.block<6, 6>(6, 6);
-  prior.offset = R.block<6, 1>(6, 12);
-  return prior;
+  return {staying, R.block(6, 6, columns - 6, columns - 6), R.block(6, columns, columns - 6, 1)};
+}
+
+MarginalizationPriorCost::MarginalizationPriorCost(const MarginalizationPrior* prior)
+    : prior_(prior) {
+  set_num_residuals(6 * prior->poses());
+  mutable_parameter_block_sizes()->assign(static_cast<std::size_t>(prior->poses()), 7);
 }
 
 bool MarginalizationPriorCost::Evaluate(double const* const* parameters, double* residuals,
                                         double** jacobians) const {
-  const SE3 pose = SE3::FromData(parameters[0]);
-  Eigen::Map<Vector6d> r(residuals);
-  r = prior_.Residual(pose);
-  if (jacobians != nullptr && jacobians[0] != nullptr) {
-    Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobians[0]);
-    J.noalias() = prior_.Jacobian(pose, first_estimate_jacobians_) * Se3MinusJacobian(pose);
+  std::vector<SE3> s;
+  for (int i = 0; i < prior_->poses(); ++i) s.push_back(SE3::FromData(parameters[i]));
+  Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = prior_->Residual(s);
+  if (jacobians == nullptr) return true;
+  const Eigen::MatrixXd tangent = prior_->Jacobian(s);
+  for (int i = 0; i < prior_->poses(); ++i) {
+    if (jacobians[i] == nullptr) continue;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>> J(jacobians[i],
+                                                                            num_residuals(), 7);
+    J.noalias() = tangent.middleCols<6>(6 * i) * Se3MinusJacobian(s[static_cast<std::size_t>(i)]);
   }
   return true;
 }

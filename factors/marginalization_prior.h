@@ -1,33 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <ceres/sized_cost_function.h>
+#include <ceres/cost_function.h>
 
-#include "factors/segment_registration.h"
+#include <Eigen/Core>
+#include <vector>
+
 #include "manifolds/se3.h"
 
 namespace trajlo {
 
 /// What a window keeps of the poses that have left it (paper, "Joint Optimization and
-/// Marginalization"), on the pose s that becomes the oldest:
+/// Marginalization"), on the first n poses s of what stays:
 ///
-///   E(s) = ½ dᵀ H d + bᵀ d,   d = s ⊖ s̄,
+///   E(s) = ½ dᵀ H d + bᵀ d,   d = [s_1 ⊖ s̄_1; ...; s_n ⊖ s̄_n],
 ///
 /// in square-root form: r = S d + r0 with SᵀS = H and Sᵀr0 = b, so that E = ½ |r|² up to a
-/// constant.
+/// constant. n is 1 where the pose that left was tied to one pose, 2 where its velocity was, too.
 struct MarginalizationPrior {
-  SE3 linearization_point;                       ///< s̄
-  Matrix6d sqrt_information = Matrix6d::Zero();  ///< S
-  Vector6d offset = Vector6d::Zero();            ///< r0
+  std::vector<SE3> linearization_points;  ///< s̄
+  Eigen::MatrixXd sqrt_information;       ///< S, 6n x 6n.
+  Eigen::VectorXd offset;                 ///< r0
+  /// Off: the Jacobian is the derivative of the residual, S Jr⁻¹(d). On: it stays as it was where
+  /// the poses left (d = 0), which is S (Huang et al., first-estimate Jacobians, 2009).
+  bool first_estimate_jacobians = false;
 
-  Matrix6d Information() const { return sqrt_information.transpose() * sqrt_information; }
-  Vector6d Gradient() const { return sqrt_information.transpose() * offset; }
+  int poses() const { return static_cast<int>(linearization_points.size()); }
+  Eigen::MatrixXd Information() const { return sqrt_information.transpose() * sqrt_information; }
+  Eigen::VectorXd Gradient() const { return sqrt_information.transpose() * offset; }
 
-  Vector6d Residual(const SE3& pose) const {
-    return offset + sqrt_information * Minus(pose, linearization_point);
-  }
-  /// S Jr⁻¹(d); with first-estimate Jacobians d = 0 and it is S itself.
-  Matrix6d Jacobian(const SE3& pose, bool first_estimate) const;
+  /// `s` has at least poses() poses. The Jacobian is with respect to their right perturbations.
+  Eigen::VectorXd Residual(const std::vector<SE3>& s) const;
+  Eigen::MatrixXd Jacobian(const std::vector<SE3>& s) const;
 };
 
 /// A prior of independent standard deviations: holds the first pose of a trajectory.
@@ -39,29 +43,28 @@ MarginalizationPrior MakeAnchor(const SE3& pose, double sigma_translation_m,
 ///
 ///   H_m = H_ss - H_sl H_ll⁺ H_ls,   b_m = g_s - H_sl H_ll⁺ g_l,
 ///
-/// and returns it as a prior on the staying pose around `linearization_point`.
+/// and returns it as a prior around `staying`, the one or more poses that it touches.
 /// Source: Demmel et al., Square Root Marginalization for Sliding-Window Bundle Adjustment, 2021,
 /// section 3. Directions of the leaving pose without information are left out of H_ll⁺.
-MarginalizationPrior MarginalizeSchur(const Matrix12d& H, const Vector12d& g,
-                                      const SE3& linearization_point);
+MarginalizationPrior MarginalizeSchur(const Eigen::MatrixXd& H, const Eigen::VectorXd& g,
+                                      const std::vector<SE3>& staying);
 
 /// The same by orthogonal elimination, without ever forming H: QR of the stacked [J_l J_s | r]; the
-/// rows below the leaving pose are the prior. `jacobian` is rows x 12, leaving pose first.
-MarginalizationPrior MarginalizeQr(const Eigen::Matrix<double, Eigen::Dynamic, 12>& jacobian,
-                                   const Eigen::VectorXd& residual, const SE3& linearization_point);
+/// rows below the leaving pose are the prior. `jacobian` has the columns of the leaving pose first.
+MarginalizationPrior MarginalizeQr(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
+                                   const std::vector<SE3>& staying);
 
-/// MarginalizationPrior as a Ceres block on one pose.
-class MarginalizationPriorCost final : public ceres::SizedCostFunction<6, 7> {
+/// MarginalizationPrior as a Ceres block on its poses.
+class MarginalizationPriorCost final : public ceres::CostFunction {
  public:
-  MarginalizationPriorCost(const MarginalizationPrior& prior, bool first_estimate_jacobians)
-      : prior_(prior), first_estimate_jacobians_(first_estimate_jacobians) {}
+  /// `prior` must outlive the factor and keep its number of poses; each evaluation reads it anew.
+  explicit MarginalizationPriorCost(const MarginalizationPrior* prior);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 
  private:
-  MarginalizationPrior prior_;
-  bool first_estimate_jacobians_;
+  const MarginalizationPrior* prior_;
 };
 
 }  // namespace trajlo

@@ -8,19 +8,14 @@
 namespace trajlo {
 
 double EvaluatePointToPlane(const RegistrationPoint& point, double sigma_m, const SE3& T_begin,
-                            const SE3& T_end, const std::optional<SE3>& T_begin_linearized,
-                            Eigen::Matrix<double, 1, 12>* wrt_poses) {
+                            const SE3& T_end, Eigen::Matrix<double, 1, 12>* wrt_poses) {
   const double scale = std::sqrt(point.weight) / sigma_m;
   const Eigen::Vector3d& n = point.normal_world;
-  Vector6d tau = Minus(T_end, T_begin);
-  SE3 T = Plus(T_begin, point.alpha * tau);
+  const Vector6d tau = Minus(T_end, T_begin);
+  const SE3 T = Plus(T_begin, point.alpha * tau);
   const double residual = scale * (n.dot(T * point.p_body_m) - point.offset_m);
   if (wrt_poses == nullptr) return residual;
 
-  if (T_begin_linearized) {
-    tau = Minus(T_end, *T_begin_linearized);
-    T = Plus(*T_begin_linearized, point.alpha * tau);
-  }
   const Eigen::Matrix3d R = T.q.toRotationMatrix();
   Eigen::Matrix<double, 1, 6> dr_dphi;
   dr_dphi << n.transpose() * R, -n.transpose() * R * so3::Hat(point.p_body_m);
@@ -30,15 +25,11 @@ double EvaluatePointToPlane(const RegistrationPoint& point, double sigma_m, cons
   return residual;
 }
 
-PointToPlaneCost::PointToPlaneCost(const RegistrationPoint& point, double sigma_m,
-                                   const std::optional<SE3>& T_begin_linearized)
-    : point_(point), sigma_m_(sigma_m), T_begin_linearized_(T_begin_linearized) {}
-
 bool PointToPlaneCost::Evaluate(double const* const* parameters, double* residuals,
                                 double** jacobians) const {
   const SE3 poses[2] = {SE3::FromData(parameters[0]), SE3::FromData(parameters[1])};
   Eigen::Matrix<double, 1, 12> wrt_poses;
-  residuals[0] = EvaluatePointToPlane(point_, sigma_m_, poses[0], poses[1], T_begin_linearized_,
+  residuals[0] = EvaluatePointToPlane(point_, sigma_m_, poses[0], poses[1],
                                       jacobians == nullptr ? nullptr : &wrt_poses);
   if (jacobians == nullptr) return true;
   for (int block = 0; block < 2; ++block) {

@@ -3,19 +3,16 @@
 
 #include <ceres/sized_cost_function.h>
 
-#include <optional>
-
 #include "factors/registration_point.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 
 /// The residual of one point, and its Jacobian with respect to the right perturbations of both
-/// control poses where `wrt_poses` is given (at `T_begin_linearized` in place of T_begin where that
-/// is given): the formulas stand at PointToPlaneCost.
+/// control poses where `wrt_poses` is given: the formulas stand at
+/// PointToPlaneCost.
 double EvaluatePointToPlane(const RegistrationPoint& point, double sigma_m, const SE3& T_begin,
-                            const SE3& T_end, const std::optional<SE3>& T_begin_linearized,
-                            Eigen::Matrix<double, 1, 12>* wrt_poses);
+                            const SE3& T_end, Eigen::Matrix<double, 1, 12>* wrt_poses);
 
 /// The continuous-time geometric constraint of one point (paper's geometric error), the plain
 /// reference of SegmentRegistrationCost:
@@ -32,8 +29,8 @@ double EvaluatePointToPlane(const RegistrationPoint& point, double sigma_m, cons
 class PointToPlaneCost final : public ceres::SizedCostFunction<1, 7, 7> {
  public:
   /// `sigma_m`: standard deviation of the point-to-plane distance, metres.
-  PointToPlaneCost(const RegistrationPoint& point, double sigma_m,
-                   const std::optional<SE3>& T_begin_linearized = std::nullopt);
+  PointToPlaneCost(const RegistrationPoint& point, double sigma_m)
+      : point_(point), sigma_m_(sigma_m) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -41,7 +38,6 @@ class PointToPlaneCost final : public ceres::SizedCostFunction<1, 7, 7> {
  private:
   RegistrationPoint point_;
   double sigma_m_;
-  std::optional<SE3> T_begin_linearized_;
 };
 
 }  // namespace trajlo

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "factors/lanes.h"
 #include "factors/square_root.h"
+#include "manifolds/lanes.h"
 #include "manifolds/se3_manifold.h"
 
 namespace trajlo {
@@ -78,25 +78,9 @@ class KernelCost {
 
 }  // namespace
 
-SegmentLinearizer::Motion::Motion(const SE3& begin, const SE3& end)
-    : R_begin(begin.q.toRotationMatrix()), t_begin(begin.t), tau(Minus(end, begin)) {
-  rho = tau.head<3>();
-  theta = tau.tail<3>();
-  theta_x_rho = theta.cross(rho);
-  theta_x_theta_x_rho = theta.cross(theta_x_rho);
-  angle_squared = theta.squaredNorm();
-}
-
 SegmentLinearizer::SegmentLinearizer(const SE3& T_begin, const SE3& T_end,
-                                     const RegistrationNoise& noise,
-                                     const std::optional<SE3>& T_begin_linearized)
-    : current_(T_begin, T_end), noise_(noise) {
-  // The same state takes the same path, to the bit.
-  if (T_begin_linearized && (T_begin_linearized->q.coeffs() != T_begin.q.coeffs() ||
-                             T_begin_linearized->t != T_begin.t)) {
-    linearized_.emplace(*T_begin_linearized, T_end);
-  }
-}
+                                     const RegistrationNoise& noise)
+    : motion_(T_begin, T_end), noise_(noise) {}
 
 void SegmentLinearizer::Sum::Add(const Sum& other) {
   H += other.H;
@@ -114,20 +98,6 @@ struct SegmentLinearizer::Lanes {
 
 namespace {
 
-/// Exp(alpha tau) p = p + alpha c1 theta x p + alpha² c2 theta x (theta x p)
-///                  + alpha rho + alpha² c2 theta x rho + alpha³ c3 theta x (theta x rho).
-template <typename T, typename MotionType>
-Vector3<T> MoveToBegin(const MotionType& m, const T& alpha, const StumpffSeries<T>& c,
-                       const Vector3<T>& p) {
-  const Vector3<T> theta = Broadcast3<T>(m.theta);
-  const Vector3<T> theta_x_p = Cross(theta, p);
-  const T k1 = alpha * c.c1;
-  const T k2 = alpha * alpha * c.c2;
-  const T k3 = alpha * alpha * alpha * c.c3;
-  return p + k1 * theta_x_p + k2 * (Cross(theta, theta_x_p) + Broadcast3<T>(m.theta_x_rho)) +
-         alpha * Broadcast3<T>(m.rho) + k3 * Broadcast3<T>(m.theta_x_theta_x_rho);
-}
-
 template <typename T>
 StumpffSeries<T> StumpffOf(const T& s) {
   return StumpffSeries<T>(s);
@@ -142,9 +112,9 @@ StumpffSeries<double> StumpffOf<double>(const double& s) {
 template <typename T>
 T SegmentLinearizer::Residual(const RegistrationPoint* const* points) const {
   const GatheredPoints<T> in(points);
-  const Motion& m = current_;
+  const SegmentMotion& m = motion_;
   const StumpffSeries<T> c = StumpffOf<T>(in.alpha * in.alpha * m.angle_squared);
-  const Vector3<T> p0 = MoveToBegin(m, in.alpha, c, in.p);
+  const Vector3<T> p0 = m.MoveToBegin<T>(in.alpha, c, in.p);
   const Vector3<T> n0 = RotateInverse(m.R_begin, in.n);
   return Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(m.t_begin)) - in.offset);
 }
@@ -154,10 +124,11 @@ void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* const* points,
                                        Lanes<T>* sums) const {
   const GatheredPoints<T> in(points);
   const T alpha = in.alpha;
-  StumpffSeries<T> c = StumpffOf<T>(alpha * alpha * current_.angle_squared);
-  Vector3<T> p0 = MoveToBegin(current_, alpha, c, in.p);
-  Vector3<T> n0 = RotateInverse(current_.R_begin, in.n);
-  const T r = Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(current_.t_begin)) - in.offset);
+  const SegmentMotion& m = motion_;
+  const StumpffSeries<T> c = StumpffOf<T>(alpha * alpha * m.angle_squared);
+  const Vector3<T> p0 = m.MoveToBegin<T>(alpha, c, in.p);
+  const Vector3<T> n0 = RotateInverse(m.R_begin, in.n);
+  const T r = Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(m.t_begin)) - in.offset);
 
   const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
   T s = in.weight * information * r * r;
@@ -168,12 +139,6 @@ void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* const* points,
   }
   w = w * in.weight * information;
 
-  const Motion& m = linearized_ ? *linearized_ : current_;
-  if (linearized_) {
-    c = StumpffOf<T>(alpha * alpha * m.angle_squared);
-    p0 = MoveToBegin(m, alpha, c, in.p);
-    n0 = RotateInverse(m.R_begin, in.n);
-  }
   // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x
   // theta].
   const Vector3<T> j1 = n0;
@@ -227,9 +192,7 @@ SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* poi
                                                     size_t count) const {
   Sum sum;
   // The series of the Stumpff functions, which the lanes use, hold for rotations below 1 rad.
-  const bool small =
-      current_.angle_squared < 1.0 && (!linearized_ || linearized_->angle_squared < 1.0);
-  const size_t vectorised = small ? count / 4 * 4 : 0;
+  const size_t vectorised = motion_.angle_squared < 1.0 ? count / 4 * 4 : 0;
   RunLinearize<Lane4>(points, vectorised, &sum);
   RunLinearize<double>(points + vectorised, count - vectorised, &sum);
   return sum;
@@ -238,7 +201,7 @@ SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* poi
 double SegmentLinearizer::Cost(const RegistrationPoint* points, size_t count) const {
   KernelCost cost(noise_.kernel);
   const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
-  const size_t vectorised = current_.angle_squared < 1.0 ? count / 4 * 4 : 0;
+  const size_t vectorised = motion_.angle_squared < 1.0 ? count / 4 * 4 : 0;
   const RegistrationPoint* gathered[4];
   for (size_t i = 0; i < vectorised; i += 4) {
     for (int lane = 0; lane < 4; ++lane) gathered[lane] = points + i + lane;
@@ -256,7 +219,7 @@ double SegmentLinearizer::Cost(const RegistrationPoint* points, size_t count) co
 }
 
 RegistrationNormalEquations SegmentLinearizer::Finish(const Sum& sum) const {
-  const Motion& m = linearized_ ? *linearized_ : current_;
+  const SegmentMotion& m = motion_;
   // [dr/dT_begin dr/dT_end] = [jᵀ vᵀ] B.
   Matrix12d B = Matrix12d::Identity();
   B.bottomLeftCorner<6, 6>() = -se3::LeftJacobianInverse(m.tau);
@@ -271,9 +234,8 @@ RegistrationNormalEquations SegmentLinearizer::Finish(const Sum& sum) const {
 
 RegistrationNormalEquations LinearizeSegment(const std::vector<RegistrationPoint>& points,
                                              const SE3& T_begin, const SE3& T_end,
-                                             const RegistrationNoise& noise,
-                                             const std::optional<SE3>& T_begin_linearized) {
-  const SegmentLinearizer linearizer(T_begin, T_end, noise, T_begin_linearized);
+                                             const RegistrationNoise& noise) {
+  const SegmentLinearizer linearizer(T_begin, T_end, noise);
   return linearizer.Finish(linearizer.Linearize(points.data(), points.size()));
 }
 
@@ -298,9 +260,8 @@ void WriteCondensed(const RegistrationNormalEquations& equations, const SE3& T_b
 }
 
 SegmentRegistrationCost::SegmentRegistrationCost(const std::vector<RegistrationPoint>* points,
-                                                 const RegistrationNoise& noise,
-                                                 const std::optional<SE3>& T_begin_linearized)
-    : points_(points), noise_(noise), T_begin_linearized_(T_begin_linearized) {}
+                                                 const RegistrationNoise& noise)
+    : points_(points), noise_(noise) {}
 
 bool SegmentRegistrationCost::Evaluate(double const* const* parameters, double* residuals,
                                        double** jacobians) const {
@@ -312,7 +273,7 @@ bool SegmentRegistrationCost::Evaluate(double const* const* parameters, double* 
     last_.emplace();
     std::copy_n(parameters[0], 7, last_->poses);
     std::copy_n(parameters[1], 7, last_->poses + 7);
-    last_->equations = LinearizeSegment(*points_, T_begin, T_end, noise_, T_begin_linearized_);
+    last_->equations = LinearizeSegment(*points_, T_begin, T_end, noise_);
   }
   WriteCondensed(last_->equations, T_begin, T_end, residuals, jacobians);
   return std::isfinite(last_->equations.cost);

@@ -8,7 +8,7 @@
 
 #include "factors/registration_point.h"
 #include "factors/robust_kernel.h"
-#include "manifolds/se3.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 
@@ -40,12 +40,10 @@ struct RegistrationNormalEquations {
 ///
 /// (Adj(Exp(-alpha tau)) Jl(alpha tau) = Jr(alpha tau), and moving both poses by one world
 /// perturbation moves the interpolated pose by it). So H and g are summed over u = [j; v] and
-/// turned into pose coordinates once, exactly. `T_begin_linearized` asks for first-estimate
-/// Jacobians: residuals at the current poses, j, v and tau at the linearisation point.
+/// turned into pose coordinates once, exactly.
 class SegmentLinearizer {
  public:
-  SegmentLinearizer(const SE3& T_begin, const SE3& T_end, const RegistrationNoise& noise,
-                    const std::optional<SE3>& T_begin_linearized = std::nullopt);
+  SegmentLinearizer(const SE3& T_begin, const SE3& T_end, const RegistrationNoise& noise);
 
   /// Sums over [j; v]; sums of disjoint point ranges may be added, in a fixed order where results
   /// must not depend on threads.
@@ -63,13 +61,6 @@ class SegmentLinearizer {
   RegistrationNormalEquations Finish(const Sum& sum) const;
 
  private:
-  struct Motion {
-    explicit Motion(const SE3& begin, const SE3& end);
-    Eigen::Matrix3d R_begin;
-    Eigen::Vector3d t_begin, rho, theta, theta_x_rho, theta_x_theta_x_rho;
-    double angle_squared;
-    Vector6d tau;
-  };
   template <typename T>
   struct Lanes;
   template <typename T>
@@ -79,15 +70,14 @@ class SegmentLinearizer {
   template <typename T>
   void RunLinearize(const RegistrationPoint* points, size_t count, Sum* sum) const;
 
-  Motion current_;
-  std::optional<Motion> linearized_;
+  SegmentMotion motion_;
   RegistrationNoise noise_;
 };
 
 /// The normal equations of a whole segment, on the calling thread.
-RegistrationNormalEquations LinearizeSegment(
-    const std::vector<RegistrationPoint>& points, const SE3& T_begin, const SE3& T_end,
-    const RegistrationNoise& noise, const std::optional<SE3>& T_begin_linearized = std::nullopt);
+RegistrationNormalEquations LinearizeSegment(const std::vector<RegistrationPoint>& points,
+                                             const SE3& T_begin, const SE3& T_end,
+                                             const RegistrationNoise& noise);
 
 /// Condenses normal equations into 13 rows of Ceres with the same cost, gradient and Gauss-Newton
 /// Hessian: with H = SᵀS and Sᵀs = g,
@@ -107,8 +97,7 @@ class SegmentRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> 
  public:
   /// `points` must outlive the factor and stay as they are.
   SegmentRegistrationCost(const std::vector<RegistrationPoint>* points,
-                          const RegistrationNoise& noise,
-                          const std::optional<SE3>& T_begin_linearized = std::nullopt);
+                          const RegistrationNoise& noise);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -116,7 +105,6 @@ class SegmentRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> 
  private:
   const std::vector<RegistrationPoint>* points_;
   RegistrationNoise noise_;
-  std::optional<SE3> T_begin_linearized_;
   /// The last answer and its poses; a block is evaluated by one thread at a time.
   struct Evaluation {
     double poses[14];

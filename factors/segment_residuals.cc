@@ -8,9 +8,8 @@
 namespace trajlo {
 
 SegmentResidualsCost::SegmentResidualsCost(const std::vector<RegistrationPoint>* points,
-                                           const RegistrationNoise& noise,
-                                           const std::optional<SE3>& T_begin_linearized)
-    : points_(points), noise_(noise), T_begin_linearized_(T_begin_linearized) {
+                                           const RegistrationNoise& noise)
+    : points_(points), noise_(noise) {
   set_num_residuals(static_cast<int>(points->size()));
   *mutable_parameter_block_sizes() = {7, 7};
 }
@@ -22,9 +21,8 @@ bool SegmentResidualsCost::Evaluate(double const* const* parameters, double* res
   for (int block = 0; block < 2; ++block) to_ambient[block] = Se3MinusJacobian(poses[block]);
   Eigen::Matrix<double, 1, 12> wrt_poses;
   for (std::size_t i = 0; i < points_->size(); ++i) {
-    const double r =
-        EvaluatePointToPlane((*points_)[i], noise_.sigma_m, poses[0], poses[1], T_begin_linearized_,
-                             jacobians == nullptr ? nullptr : &wrt_poses);
+    const double r = EvaluatePointToPlane((*points_)[i], noise_.sigma_m, poses[0], poses[1],
+                                          jacobians == nullptr ? nullptr : &wrt_poses);
     const RobustKernel::Value kernel = noise_.kernel.Evaluate(r * r);
     const double root = std::sqrt(kernel.rho);
     residuals[i] = std::copysign(root, r);

@@ -3,7 +3,6 @@
 
 #include <ceres/cost_function.h>
 
-#include <optional>
 #include <vector>
 
 #include "factors/point_to_plane.h"
@@ -22,8 +21,8 @@ namespace trajlo {
 class SegmentResidualsCost final : public ceres::CostFunction {
  public:
   /// `points` must outlive the factor and stay as they are.
-  SegmentResidualsCost(const std::vector<RegistrationPoint>* points, const RegistrationNoise& noise,
-                       const std::optional<SE3>& T_begin_linearized = std::nullopt);
+  SegmentResidualsCost(const std::vector<RegistrationPoint>* points,
+                       const RegistrationNoise& noise);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -31,7 +30,6 @@ class SegmentResidualsCost final : public ceres::CostFunction {
  private:
   const std::vector<RegistrationPoint>* points_;
   RegistrationNoise noise_;
-  std::optional<SE3> T_begin_linearized_;
 };
 
 }  // namespace trajlo

@@ -9,10 +9,10 @@ Vector6d SmoothnessTerm::Residual(const SE3& T_begin, const SE3& T_end) const {
   return sqrt_information.cwiseProduct(Minus(T_end, T_begin) - tau_expected);
 }
 
-SmoothnessTerm::Linearization SmoothnessTerm::Linearize(
-    const SE3& T_begin, const SE3& T_end, const std::optional<SE3>& T_begin_linearized) const {
-  const Vector6d tau = Minus(T_end, T_begin_linearized.value_or(T_begin));
-  return {Residual(T_begin, T_end),
+SmoothnessTerm::Linearization SmoothnessTerm::Linearize(const SE3& T_begin,
+                                                        const SE3& T_end) const {
+  const Vector6d tau = Minus(T_end, T_begin);
+  return {sqrt_information.cwiseProduct(tau - tau_expected),
           -(sqrt_information.asDiagonal() * se3::LeftJacobianInverse(tau)),
           sqrt_information.asDiagonal() * se3::RightJacobianInverse(tau)};
 }
@@ -23,10 +23,10 @@ bool SmoothnessCost::Evaluate(double const* const* parameters, double* residuals
   const SE3 T_end = SE3::FromData(parameters[1]);
   Eigen::Map<Vector6d> r(residuals);
   if (jacobians == nullptr) {
-    r = term_.Residual(T_begin, T_end);
+    r = term_->Residual(T_begin, T_end);
     return true;
   }
-  const SmoothnessTerm::Linearization linear = term_.Linearize(T_begin, T_end, T_begin_linearized_);
+  const SmoothnessTerm::Linearization linear = term_->Linearize(T_begin, T_end);
   r = linear.residual;
   using Jacobian = Eigen::Matrix<double, 6, 7, Eigen::RowMajor>;
   if (jacobians[0] != nullptr) {

@@ -3,11 +3,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 
 namespace trajlo {
 
-/// A quadratic ½ xᵀH x + gᵀx written as ½ |S x + s|² - ½ |s|²: SᵀS = H and Sᵀs = g.
+/// N is a size or Eigen::Dynamic. A quadratic ½ xᵀH x + gᵀx written as ½ |S x + s|² - ½ |s|²: SᵀS =
+/// H and Sᵀs = g.
 template <int N>
 struct SquareRoot {
   Eigen::Matrix<double, N, N> S;
@@ -20,12 +22,13 @@ struct SquareRoot {
 template <int N>
 SquareRoot<N> MakePivotedSquareRoot(const Eigen::Matrix<double, N, N>& H,
                                     const Eigen::Matrix<double, N, 1>& g) {
+  const Eigen::Index n = H.rows();
   const Eigen::LDLT<Eigen::Matrix<double, N, N>> ldlt(H);
   const Eigen::Matrix<double, N, 1> D = ldlt.vectorD();
   const double smallest = 1e-14 * D.cwiseAbs().maxCoeff();
-  Eigen::Matrix<double, N, 1> root = Eigen::Matrix<double, N, 1>::Zero();
-  Eigen::Matrix<double, N, 1> inverse_root = Eigen::Matrix<double, N, 1>::Zero();
-  for (int i = 0; i < N; ++i) {
+  Eigen::Matrix<double, N, 1> root = Eigen::Matrix<double, N, 1>::Zero(n);
+  Eigen::Matrix<double, N, 1> inverse_root = Eigen::Matrix<double, N, 1>::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
     if (D[i] > smallest && D[i] > std::numeric_limits<double>::min()) {
       root[i] = std::sqrt(D[i]);
       inverse_root[i] = 1.0 / root[i];
@@ -33,7 +36,7 @@ SquareRoot<N> MakePivotedSquareRoot(const Eigen::Matrix<double, N, N>& H,
   }
   const auto P = ldlt.transpositionsP();
   SquareRoot<N> result;
-  Eigen::Matrix<double, N, N> permutation = Eigen::Matrix<double, N, N>::Identity();
+  Eigen::Matrix<double, N, N> permutation = Eigen::Matrix<double, N, N>::Identity(n, n);
   permutation = P * permutation;
   const Eigen::Matrix<double, N, N> upper = ldlt.matrixU();
   result.S.noalias() = root.asDiagonal() * upper * permutation;

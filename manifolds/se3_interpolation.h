@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "manifolds/lanes.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {
@@ -11,39 +12,50 @@ inline SE3 Interpolate(const SE3& T_begin, const SE3& T_end, double alpha) {
   return Plus(T_begin, alpha * Minus(T_end, T_begin));
 }
 
-/// Interpolate(T_begin, T_end, alpha) * p for many points of one segment:
+/// The constant twist of one segment, prepared for moving many of its points:
 ///
-///   T_begin (p + alpha c1 theta x p + alpha² c2 theta x (theta x p)
-///            + alpha rho + alpha² c2 theta x rho + alpha³ c3 theta x (theta x rho)),
+///   Interpolate(T_begin, T_end, alpha) p = T_begin p0,
+///   p0 = Exp(alpha tau) p = p + alpha c1 theta x p + alpha² c2 theta x (theta x p)
+///                         + alpha rho + alpha² c2 theta x rho + alpha³ c3 theta x (theta x rho),
 ///
-/// with the Stumpff functions at alpha |theta|; a fraction of the cost of the general formula.
-class PointInterpolator {
- public:
-  PointInterpolator(const SE3& T_begin, const SE3& T_end)
-      : R_begin_(T_begin.q.toRotationMatrix()), t_begin_(T_begin.t) {
-    const Vector6d tau = Minus(T_end, T_begin);
-    rho_ = tau.head<3>();
-    theta_ = tau.tail<3>();
-    theta_x_rho_ = theta_.cross(rho_);
-    theta_x_theta_x_rho_ = theta_.cross(theta_x_rho_);
-    angle_squared_ = theta_.squaredNorm();
+/// with the Stumpff functions at alpha |theta|; a fraction of the cost of the general formula. T is
+/// a double, or four of them (lanes.h).
+struct SegmentMotion {
+  SegmentMotion(const SE3& T_begin, const SE3& T_end)
+      : R_begin(T_begin.q.toRotationMatrix()), t_begin(T_begin.t), tau(Minus(T_end, T_begin)) {
+    rho = tau.head<3>();
+    theta = tau.tail<3>();
+    theta_x_rho = theta.cross(rho);
+    theta_x_theta_x_rho = theta.cross(theta_x_rho);
+    angle_squared = theta.squaredNorm();
   }
 
-  Eigen::Vector3d operator()(double alpha, const Eigen::Vector3d& p) const {
-    const Stumpff c(alpha * alpha * angle_squared_);
-    const Eigen::Vector3d theta_x_p = theta_.cross(p);
-    const double k1 = alpha * c.c1;
-    const double k2 = alpha * alpha * c.c2;
-    const double k3 = alpha * alpha * alpha * c.c3;
-    return R_begin_ * (p + k1 * theta_x_p + k2 * (theta_.cross(theta_x_p) + theta_x_rho_) +
-                       alpha * rho_ + k3 * theta_x_theta_x_rho_) +
-           t_begin_;
+  /// p0; `c` are the Stumpff functions at alpha² angle_squared.
+  template <typename T>
+  lanes::Vector3<T> MoveToBegin(const T& alpha, const StumpffSeries<T>& c,
+                                const lanes::Vector3<T>& p) const {
+    const lanes::Vector3<T> axis = lanes::Broadcast3<T>(theta);
+    const lanes::Vector3<T> axis_x_p = lanes::Cross(axis, p);
+    const T k1 = alpha * c.c1;
+    const T k2 = alpha * alpha * c.c2;
+    const T k3 = alpha * alpha * alpha * c.c3;
+    return p + k1 * axis_x_p +
+           k2 * (lanes::Cross(axis, axis_x_p) + lanes::Broadcast3<T>(theta_x_rho)) +
+           alpha * lanes::Broadcast3<T>(rho) + k3 * lanes::Broadcast3<T>(theta_x_theta_x_rho);
   }
 
- private:
-  Eigen::Matrix3d R_begin_;
-  Eigen::Vector3d t_begin_, rho_, theta_, theta_x_rho_, theta_x_theta_x_rho_;
-  double angle_squared_;
+  /// The point in the world.
+  Eigen::Vector3d ToWorld(double alpha, const Eigen::Vector3d& p) const {
+    const Stumpff c(alpha * alpha * angle_squared);
+    const auto p0 = MoveToBegin<double>(alpha, c, {p.x(), p.y(), p.z()});
+    return R_begin * Eigen::Vector3d(p0.x, p0.y, p0.z) + t_begin;
+  }
+
+  Eigen::Matrix3d R_begin;
+  Eigen::Vector3d t_begin;
+  Vector6d tau;  ///< [rho; theta], in the begin frame.
+  Eigen::Vector3d rho, theta, theta_x_rho, theta_x_theta_x_rho;
+  double angle_squared;
 };
 
 /// The derivatives of the interpolated pose, all with respect to right perturbations.

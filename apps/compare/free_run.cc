@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "core/comparison/forms/ceres_form_solver.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_writer.h"
 #include "core/odometry/odometry.h"
@@ -31,7 +32,7 @@ FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant) 
 
   const double cpu_begin_s = ProcessCpuSeconds();
   Stopwatch watch;
-  Odometry odometry(variant.odometry);
+  Odometry odometry(variant.odometry, MakeSolverFactory(variant.ceres_form));
   double inlier_share = 0.0;
   odometry.OnWindow([&](const WindowStatistics& window) {
     windows.Append(window);

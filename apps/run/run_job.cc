@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "apps/print_warnings.h"
+#include "core/comparison/forms/ceres_form_solver.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
 #include "core/io/point_cloud_writer.h"
@@ -52,7 +53,7 @@ class Run {
         sampler_(request.sampling),
         trajectory_(folder.trajectory(), IfExists::kReplace),
         windows_(folder.windows(), IfExists::kReplace),
-        odometry_(request.config.odometry) {
+        odometry_(request.config.odometry, MakeSolverFactory(request.config.ceres_form)) {
     odometry_.OnWindow([this](const WindowStatistics& window) {
       windows_.Append(window);
       summary_->windows.Add(window);

@@ -24,11 +24,11 @@ void LockstepCsvWriter::Append(const LockstepRecord& r) {
   row.Add("rejected_steps", r.summary.rejected_steps);
   row.Add("cost_before", r.cost_before.Total());
   row.Add("cost_before_registration", r.cost_before.registration);
-  row.Add("cost_before_smoothness", r.cost_before.smoothness);
+  row.Add("cost_before_motion", r.cost_before.motion);
   row.Add("cost_before_prior", r.cost_before.prior);
   row.Add("cost_after", r.cost_after.Total());
   row.Add("cost_after_registration", r.cost_after.registration);
-  row.Add("cost_after_smoothness", r.cost_after.smoothness);
+  row.Add("cost_after_motion", r.cost_after.motion);
   row.Add("cost_after_prior", r.cost_after.prior);
   row.Add("from_first_m", r.from_first.translation_m);
   row.Add("from_first_rad", r.from_first.rotation_rad);

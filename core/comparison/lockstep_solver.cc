@@ -3,15 +3,17 @@
 
 #include <utility>
 
+#include "core/comparison/forms/ceres_form_solver.h"
 #include "core/odometry/stopwatch.h"
 
 namespace trajlo {
 namespace {
 
-WindowCost CostOf(const WindowProblem& problem, RegistrationEvaluator* evaluator) {
+WindowCost CostOf(const Window& window, RegistrationEvaluator* evaluator) {
+  const std::vector<SE3> poses = window.Poses();
   std::vector<RegistrationNormalEquations> registration;
-  evaluator->Evaluate(problem, problem.poses, false, &registration);
-  WindowCost cost = CostWithoutRegistration(problem);
+  evaluator->Evaluate(window, poses, false, &registration);
+  WindowCost cost = CostWithoutRegistration(window, poses);
   for (const auto& segment : registration) cost.registration += segment.cost;
   return cost;
 }
@@ -32,14 +34,14 @@ LockstepSolver::LockstepSolver(const std::vector<SolverVariant>& variants,
     solver.iterations_per_round = options.max_iterations;
     solver.step_tolerance_m = options.step_tolerance_m;
     solver.step_tolerance_rad = options.step_tolerance_rad;
-    solvers_.push_back(MakeWindowSolver(solver, threads));
+    solvers_.push_back(MakeSolverFactory(variant.ceres_form)(solver, threads));
   }
 }
 
-SolveSummary LockstepSolver::Solve(WindowProblem* problem) {
-  if (is_first_round_ && window_ % options_.every == 0) Compare(*problem);
+SolveSummary LockstepSolver::Solve(Window* window) {
+  if (is_first_round_ && window_ % options_.every == 0) Compare(*window);
   is_first_round_ = false;
-  return leading_->Solve(problem);
+  return leading_->Solve(window);
 }
 
 void LockstepSolver::FinishWindow() {
@@ -47,23 +49,26 @@ void LockstepSolver::FinishWindow() {
   is_first_round_ = true;
 }
 
-void LockstepSolver::Compare(const WindowProblem& problem) {
+void LockstepSolver::Compare(const Window& window) {
   std::vector<SE3> first_solution;
   LockstepRecord record;
   record.window = window_;
-  for (const auto* points : problem.points) record.points += static_cast<int>(points->size());
-  record.cost_before = CostOf(problem, &evaluator_);
+  for (const Segment& segment : window.segments) {
+    record.points += static_cast<int>(segment.points.size());
+  }
+  record.cost_before = CostOf(window, &evaluator_);
   for (record.variant = 0; record.variant < variants_.size(); ++record.variant) {
     const OdometryOptions& odometry = variants_[record.variant].odometry;
-    WindowProblem own = problem;
-    own.noise.kernel.kind = odometry.weights.kernel;
-    own.first_estimate_jacobians = odometry.marginalization.first_estimate_jacobians;
+    Window own = window;
+    own.noise.kernel.kind = odometry.registration.kernel;
+    own.prior.first_estimate_jacobians = odometry.marginalization.first_estimate_jacobians;
     Stopwatch watch;
     record.summary = solvers_[record.variant]->Solve(&own);
     record.total_s = watch.Seconds();
-    if (record.variant == 0) first_solution = own.poses;
-    record.from_first = MeasureStep(first_solution, own.poses);
-    own.noise = problem.noise;
+    const std::vector<SE3> solution = own.Poses();
+    if (record.variant == 0) first_solution = solution;
+    record.from_first = MeasureStep(first_solution, solution);
+    own.noise = window.noise;
     record.cost_after = CostOf(own, &evaluator_);
     on_record_(record);
   }

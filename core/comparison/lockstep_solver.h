@@ -7,6 +7,7 @@
 
 #include "core/comparison/solver_variant.h"
 #include "core/odometry/solvers/window_solver.h"
+#include "core/odometry/window/registration_evaluator.h"
 
 namespace trajlo {
 
@@ -43,12 +44,12 @@ class LockstepSolver final : public WindowSolver {
   LockstepSolver(const std::vector<SolverVariant>& variants, const LockstepOptions& options,
                  std::unique_ptr<WindowSolver> leading, ThreadPool* threads, OnRecord on_record);
 
-  SolveSummary Solve(WindowProblem* problem) override;
+  SolveSummary Solve(Window* window) override;
   /// The next call of Solve belongs to another window.
   void FinishWindow();
 
  private:
-  void Compare(const WindowProblem& problem);
+  void Compare(const Window& window);
 
   const std::vector<SolverVariant>& variants_;
   LockstepOptions options_;

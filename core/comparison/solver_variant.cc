@@ -52,6 +52,7 @@ std::vector<SolverVariant> LoadVariants(const std::filesystem::path& path, const
     ApplyOverrides(variant.settings, &config, Where(path, item));
     CheckConfig(config);
     variant.odometry = config.odometry;
+    variant.ceres_form = config.ceres_form;
     variants.push_back(std::move(variant));
   }
   return variants;
@@ -61,7 +62,7 @@ bool IsAboutOneWindow(const SolverVariant& variant, const RunConfig& base) {
   RunConfig same = base;
   same.odometry = variant.odometry;
   same.odometry.solver = base.odometry.solver;
-  same.odometry.weights.kernel = base.odometry.weights.kernel;
+  same.odometry.registration.kernel = base.odometry.registration.kernel;
   same.odometry.marginalization.first_estimate_jacobians =
       base.odometry.marginalization.first_estimate_jacobians;
   return DumpConfig(same) == DumpConfig(base);

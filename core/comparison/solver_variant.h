@@ -15,6 +15,7 @@ struct SolverVariant {
   /// "key=value,key=value" on top of the common configuration.
   std::string settings;
   OdometryOptions odometry;
+  CeresFormOptions ceres_form;
 };
 
 /// Reads variants from YAML,

@@ -6,9 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/comparison/forms/ceres_form_options.h"
 #include "core/config/config_error.h"
 #include "core/io/recording/recording_options.h"
-#include "core/odometry/odometry.h"
+#include "core/odometry/odometry_options.h"
 
 namespace trajlo {
 
@@ -17,6 +18,7 @@ namespace trajlo {
 struct RunConfig {
   RecordingOptions input;
   OdometryOptions odometry;
+  CeresFormOptions ceres_form;
 };
 
 /// Sets what the YAML file says and leaves all else as it is, so that several files can be loaded

@@ -30,7 +30,7 @@ void CheckConfig(const RunConfig& config) {
   const MapOptions& map = config.odometry.map.finest;
   const PlaneFitOptions& plane = config.odometry.association.plane;
   const AdaptiveThresholdOptions& threshold = config.odometry.threshold;
-  const WeightOptions& weights = config.odometry.weights;
+  const RegistrationOptions& registration = config.odometry.registration;
 
   RequireLess({"sensor.min_range_m", segmenter.min_range_m},
               {"sensor.max_range_m", segmenter.max_range_m}, "otherwise no point is left");
@@ -55,8 +55,8 @@ void CheckConfig(const RunConfig& config) {
                 "the threshold starts within its bounds");
   RequireAtMost({"threshold.initial_m", threshold.initial_m}, {"threshold.max_m", threshold.max_m},
                 "the threshold starts within its bounds");
-  RequireAtMost({"weights.min_kernel_m", weights.min_kernel_m},
-                {"weights.max_kernel_m", weights.max_kernel_m},
+  RequireAtMost({"registration.min_kernel_m", registration.min_kernel_m},
+                {"registration.max_kernel_m", registration.max_kernel_m},
                 "the kernel's width lies between them");
 }
 

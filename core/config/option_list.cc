@@ -13,13 +13,12 @@ std::vector<Option> BindOptions(RunConfig* config) {
   OptionBinder binder;
   BindInput(&config->input, &binder);
   BindSensing(&odometry->segmenter, &binder);
-  BindAdaptiveInterval(&odometry->adaptive_interval, &binder);
   BindMap(&odometry->map, &binder);
   BindAssociation(&odometry->association, &binder);
   BindThreshold(&odometry->threshold, &binder);
-  BindWeights(&odometry->weights, &binder);
-  BindWeightBalance(&odometry->weight_balance, &binder);
-  BindSolver(&odometry->solver, &binder);
+  BindRegistration(&odometry->registration, &binder);
+  BindMotionPrior(&odometry->motion_prior, &binder);
+  BindSolver(&odometry->solver, &config->ceres_form, &binder);
   BindMarginalization(&odometry->marginalization, &binder);
   BindEstimation(odometry, &binder);
   return std::move(binder.options);
@@ -32,17 +31,16 @@ std::string SectionDoc(const std::string& section) {
        "which is printed."},
       {"sensor", "The LiDARs."},
       {"segmenter", "How the stream of points is cut into segments and thinned."},
-      {"adaptive_interval", "How the length of segments follows the motion."},
       {"map", "The local map that points are registered to."},
       {"association", "How a point finds its plane."},
       {"association.plane", "When neighbours make a plane."},
       {"threshold",
        "How far off predictions are taken to be: it sets how far associations reach "
        "and how wide the robust kernel is."},
-      {"weights", "The weights of the energy."},
-      {"weight_balance", "How the ratio between geometry and smoothness finds itself."},
+      {"registration", "How the distance of a point to its plane is weighed."},
+      {"motion_prior", "How freely the body is taken to move."},
       {"solver", "How a window is solved."},
-      {"solver.ceres", "Only read by the Ceres solver."},
+      {"solver.ceres", "Other forms of the Ceres solver, for comparison."},
       {"marginalization", "How the past is kept when a segment leaves the window."},
       {"window", "The sliding window."},
       {"initialization", "How the first interval is treated."},

@@ -2,199 +2,177 @@
 #include "core/odometry/odometry.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
+#include "core/odometry/health/belief.h"
 #include "core/odometry/stopwatch.h"
-#include "core/odometry/window/initial_motion.h"
-#include "core/odometry/window/sliding_window.h"
+#include "core/odometry/window/associate_window.h"
+#include "core/odometry/window/covariance.h"
+#include "core/odometry/window/push_segment.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
-namespace {
-
-double Seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
-
-}  // namespace
-
-class Odometry::Impl {
- public:
-  Impl(const OdometryOptions& options, const WindowSolverFactory& make_solver)
-      : options_(options),
-        threads_(options.threads),
-        segmenter_(options.segmenter,
-                   options.adaptive_interval.enabled ? options.adaptive_interval.divisions : 1),
-        interval_(options.adaptive_interval, options.segmenter.interval_s),
-        map_(options.map),
-        loss_watch_(options.lost, options.threshold.max_m),
-        window_(options, &map_, &threads_, make_solver) {}
-
-  void AddScan(const LidarScan& scan) {
-    Stopwatch watch;
-    segmenter_.AddScan(scan);
-    milliseconds_segment_ += watch.Milliseconds();
-    ProcessSegments();
-  }
-
-  void Finish() {
-    segmenter_.Finish();
-    ProcessSegments();
-    if (!started_) return;
-    while (window_.segments() > 0) Leave();
-    SettleFront();
-  }
-
-  OdometryOptions options_;
-  ThreadPool threads_;
-  Segmenter segmenter_;
-  SegmentInterval interval_;
-  MapPyramid map_;
-  LossWatch loss_watch_;
-  SlidingWindow window_;
-  Trajectory trajectory_;
-  std::function<void(const WindowStatistics&)> callback_;
-  std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
-  std::optional<std::int64_t> lost_at_ns_;
-
- private:
-  void ProcessSegments() {
-    while (auto cloud = NextSegment()) {
-      if (!started_) {
-        Start(*cloud);
-      } else {
-        Process(std::move(*cloud));
-      }
-    }
-  }
-
-  std::optional<SegmentCloud> NextSegment() {
-    Stopwatch watch;
-    auto cloud = segmenter_.Next(options_.adaptive_interval.enabled ? interval_.slots() : 1);
-    milliseconds_segment_ += watch.Milliseconds();
-    return cloud;
-  }
-
-  /// The first interval: its motion, then its points into the map.
-  void Start(const SegmentCloud& cloud) {
-    started_ = true;
-    Vector6d tau = Vector6d::Zero();
-    const double duration_s = Seconds(cloud.end_ns - cloud.begin_ns);
-    if (options_.initialization.estimate_motion && duration_s > 0.0) {
-      const InitialMotion motion = EstimateInitialMotion(cloud, options_.map, options_.association,
-                                                         options_.weights, &threads_);
-      const bool is_clear = motion.tau.head<3>().norm() > options_.initialization.clear_motion_m;
-      const double gain = is_clear ? 1.0 : options_.initialization.min_gain;
-      if (motion.agreement > gain * motion.agreement_at_rest) tau = motion.tau;
-    }
-    AddToMap(cloud, SE3(), se3::Exp(tau));
-    if (duration_s > 0.0) Settle({cloud.begin_ns, SE3(), 0}, Matrix6d::Zero());
-    window_.Start(cloud.end_ns, se3::Exp(tau),
-                  duration_s > 0.0 ? Vector6d(tau / duration_s) : Vector6d::Zero());
-  }
-
-  void Process(SegmentCloud cloud) {
-    if (cloud.is_gap) {
-      BridgeGap(cloud);
-      return;
-    }
-    const double duration_s = Seconds(cloud.end_ns - cloud.begin_ns);
-    WindowStatistics statistics = window_.AddSegment(std::move(cloud));
-    if (options_.adaptive_interval.enabled) interval_.Update(RecentTrajectory(), duration_s);
-    statistics.index = windows_++;
-    statistics.milliseconds_segment = std::exchange(milliseconds_segment_, 0.0);
-    if (window_.segments() >= options_.window.segments) {
-      const auto [marginalize_ms, map_ms] = Leave();
-      statistics.milliseconds_marginalize = marginalize_ms;
-      statistics.milliseconds_map = map_ms;
-    }
-    if (const auto lost_since_ns = loss_watch_.Update(statistics)) {
-      statistics.flags |= kFlagLost;
-      if (!lost_at_ns_) lost_at_ns_ = lost_since_ns;
-    }
-    if (callback_) callback_(statistics);
-  }
-
-  /// The control poses of the window, and as many settled ones as the interval looks back on.
-  Trajectory RecentTrajectory() const {
-    const std::vector<ControlPose> window = window_.poses();
-    const std::vector<ControlPose>& settled = trajectory_.poses();
-    const double history_s = interval_.history_s();
-    std::size_t first = settled.size();
-    while (first > 0 && (first == settled.size() ||
-                         Seconds(window.back().t_ns - settled[first].t_ns) < history_s)) {
-      --first;
-    }
-    Trajectory recent;
-    for (std::size_t i = first; i < settled.size(); ++i) recent.Append(settled[i]);
-    for (const ControlPose& pose : window) recent.Append(pose);
-    return recent;
-  }
-
-  /// The pose at the front of the window is final.
-  void SettleFront() {
-    Settle(window_.front_pose(), on_pose_ ? window_.front_covariance() : Matrix6d::Zero());
-  }
-
-  void Settle(const ControlPose& pose, const Matrix6d& covariance) {
-    trajectory_.Append(pose);
-    if (on_pose_) on_pose_(pose, options_.covariance_scale * covariance);
-  }
-
-  /// The oldest segment leaves: its first pose is settled, its points enter the map.
-  std::pair<double, double> Leave() {
-    Stopwatch watch;
-    SettleFront();
-    const SlidingWindow::Left left = window_.Marginalize();
-    const double marginalize_ms = watch.Milliseconds();
-    AddToMap(left.cloud, left.T_begin, left.T_end);
-    map_.RemoveFar(left.T_end.t);
-    return {marginalize_ms, watch.Milliseconds()};
-  }
-
-  /// A pause longer than max_gap_s: nobody knows what happened. The pose is held, at rest.
-  void BridgeGap(const SegmentCloud& gap) {
-    while (window_.segments() > 0) Leave();
-    ControlPose held = window_.front_pose();
-    held.flags |= kFlagGap;
-    interval_.Reset();
-    Settle(held, on_pose_ ? window_.front_covariance() : Matrix6d::Zero());
-    window_.Start(gap.end_ns, held.T_world_body, Vector6d::Zero());
-  }
-
-  void AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end) {
-    const PointInterpolator to_world(T_begin, T_end);
-    points_world_.resize(cloud.map_points.size());
-    constexpr std::size_t kChunk = 512;
-    threads_.ParallelFor((points_world_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-      const std::size_t last = std::min(points_world_.size(), (chunk + 1) * kChunk);
-      for (std::size_t i = chunk * kChunk; i < last; ++i) {
-        const SegmentPoint& point = cloud.map_points[i];
-        points_world_[i] = to_world(point.alpha, point.p_body_m.cast<double>());
-      }
-    });
-    map_.Insert(points_world_);
-  }
-
-  bool started_ = false;
-  std::int64_t windows_ = 0;
-  double milliseconds_segment_ = 0.0;
-  std::vector<Eigen::Vector3d> points_world_;
-};
 
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
-    : impl_(std::make_unique<Impl>(options, make_solver)) {}
-Odometry::~Odometry() = default;
+    : options_(options),
+      threads_(options.threads),
+      segmenter_(options.segmenter),
+      map_(options.map),
+      threshold_(options.threshold),
+      motion_prior_(options.motion_prior),
+      solver_(make_solver(options.solver, &threads_)),
+      loss_watch_(options.lost, options.threshold.max_m) {}
 
-void Odometry::AddScan(const LidarScan& scan) { impl_->AddScan(scan); }
-void Odometry::Finish() { impl_->Finish(); }
-void Odometry::OnWindow(std::function<void(const WindowStatistics&)> callback) {
-  impl_->callback_ = std::move(callback);
+void Odometry::AddScan(const LidarScan& scan) {
+  Stopwatch watch;
+  segmenter_.AddScan(scan);
+  segment_ms_ += watch.Milliseconds();
+  ProcessSegments();
 }
-void Odometry::OnPose(std::function<void(const ControlPose&, const Matrix6d&)> callback) {
-  impl_->on_pose_ = std::move(callback);
+
+void Odometry::Finish() {
+  segmenter_.Finish();
+  ProcessSegments();
+  if (!started_) return;
+  WindowStatistics unused;
+  while (window_.size() > 0) Leave(&unused);
+  SettleFront();
 }
-const Trajectory& Odometry::trajectory() const { return impl_->trajectory_; }
-const MapPyramid& Odometry::map() const { return impl_->map_; }
-const PointCounts& Odometry::point_counts() const { return impl_->segmenter_.counts(); }
-std::optional<std::int64_t> Odometry::lost_at_ns() const { return impl_->lost_at_ns_; }
+
+void Odometry::ProcessSegments() {
+  while (true) {
+    Stopwatch watch;
+    std::optional<SegmentCloud> cloud = segmenter_.Next();
+    segment_ms_ += watch.Milliseconds();
+    if (!cloud) return;
+    if (!started_) {
+      Start(*cloud);
+    } else if (cloud->is_gap) {
+      BridgeGap(*cloud);
+    } else {
+      Step(std::move(*cloud));
+    }
+  }
+}
+
+/// The first interval: its motion, then its points into the map.
+void Odometry::Start(const SegmentCloud& cloud) {
+  started_ = true;
+  const double duration_s = 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns);
+  Vector6d tau = Vector6d::Zero();
+  if (duration_s > 0.0) {
+    tau = MotionOfFirstInterval(cloud, options_.initialization, options_.map, options_.association,
+                                options_.registration, &threads_);
+    Settle({cloud.begin_ns, SE3(), 0}, Matrix6d::Zero());
+  }
+  const SE3 T_end = se3::Exp(tau);
+  AddToMap(cloud, SE3(), T_end);
+  window_ = MakeWindow(cloud.end_ns, T_end, options_.marginalization);
+  if (duration_s > 0.0) window_.begin_velocity = tau / duration_s;
+}
+
+/// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.
+void Odometry::Step(SegmentCloud cloud) {
+  PushSegment(std::move(cloud), options_.window.deskewing, &window_);
+  motion_prior_.Apply(&window_);
+  window_.noise = MakeRegistrationNoise(
+      options_.registration, KernelWidth_m(options_.registration, threshold_.threshold_m()));
+  const std::vector<SE3> predicted = window_.Poses();
+
+  WindowStatistics statistics;
+  AssociateAndSolve(&statistics);
+  window_.is_believed =
+      statistics.is_finite && IsBelievable(predicted.back(), window_.Poses().back(), options_.lost);
+  if (window_.is_believed) {
+    Learn(predicted.back());
+  } else {
+    Revert(predicted, &window_);
+  }
+  Judge(window_, options_.lost, &statistics);
+  window_.segments.back().flags = statistics.flags;
+  Describe(window_, &statistics);
+  if (window_.size() >= options_.window.segments) Leave(&statistics);
+  Report(&statistics);
+}
+
+/// Until the step is small: which planes the points belong to, and the poses that bring them there.
+void Odometry::AssociateAndSolve(WindowStatistics* s) {
+  s->threshold_m = threshold_.threshold_m();
+  while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
+    Stopwatch watch;
+    const bool is_first = s->rounds == 0;
+    s->searched += AssociateWindow(map_, options_.association, threshold_.threshold_m(), is_first,
+                                   &threads_, &window_);
+    s->milliseconds_associate += watch.Milliseconds();
+    s->Add(solver_->Solve(&window_), options_.solver);
+    s->milliseconds_solve += watch.Milliseconds();
+  }
+}
+
+/// Thresholds and weights follow what this window showed.
+void Odometry::Learn(const SE3& T_world_predicted) {
+  const Segment& newest = window_.segments.back();
+  threshold_.AddPredictionError(T_world_predicted.Inverse() * newest.T_world_end);
+  motion_prior_.Learn(MeasureInnovation(window_, T_world_predicted), newest.Duration_s());
+}
+
+/// The oldest segment leaves: its first pose is settled, its points enter the map.
+void Odometry::Leave(WindowStatistics* statistics) {
+  Stopwatch watch;
+  SettleFront();
+  const SE3 T_begin = window_.T_world_begin;
+  const Segment oldest = Marginalize(options_.marginalization, &window_);
+  statistics->milliseconds_marginalize = watch.Milliseconds();
+  AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
+  map_.RemoveFar(oldest.T_world_end.t);
+  statistics->milliseconds_map = watch.Milliseconds();
+}
+
+void Odometry::Report(WindowStatistics* statistics) {
+  statistics->index = windows_++;
+  statistics->milliseconds_segment = std::exchange(segment_ms_, 0.0);
+  statistics->translation_density_m2_s3 = motion_prior_.density()[0];
+  statistics->rotation_density_rad2_s3 = motion_prior_.density()[3];
+  if (const auto lost_since_ns = loss_watch_.Update(*statistics)) {
+    statistics->flags |= kFlagLost;
+    if (!lost_at_ns_) lost_at_ns_ = lost_since_ns;
+  }
+  if (on_window_) on_window_(*statistics);
+}
+
+/// A pause longer than max_gap_s: nobody knows what happened. The pose is held, at rest.
+void Odometry::BridgeGap(const SegmentCloud& gap) {
+  WindowStatistics unused;
+  while (window_.size() > 0) Leave(&unused);
+  window_.begin_flags |= kFlagGap;
+  SettleFront();
+  window_ = MakeWindow(gap.end_ns, window_.T_world_begin, options_.marginalization);
+}
+
+/// The pose at the front of the window is final.
+void Odometry::SettleFront() {
+  const Matrix6d covariance =
+      on_pose_ ? PoseCovariance(AssembleWindow(window_), 0) : Matrix6d(Matrix6d::Zero());
+  Settle({window_.begin_ns, window_.T_world_begin, window_.begin_flags}, covariance);
+}
+
+void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
+  trajectory_.Append(pose);
+  if (on_pose_) on_pose_(pose, options_.covariance_scale * covariance);
+}
+
+void Odometry::AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end) {
+  const SegmentMotion motion(T_begin, T_end);
+  points_world_.resize(cloud.map_points.size());
+  constexpr std::size_t kChunk = 512;
+  threads_.ParallelFor((points_world_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t last = std::min(points_world_.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < last; ++i) {
+      const SegmentPoint& point = cloud.map_points[i];
+      points_world_[i] = motion.ToWorld(point.alpha, point.p_body_m.cast<double>());
+    }
+  });
+  map_.Insert(points_world_);
+}
 
 }  // namespace trajlo

@@ -1,64 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
-#include "core/odometry/map/map_pyramid.h"
-#include "core/odometry/sensing/segmenter.h"
-#include "core/odometry/solvers/solver_options.h"
+#include "core/odometry/health/window_statistics.h"
+#include "core/odometry/odometry_options.h"
+#include "core/odometry/parallel/parallel_for.h"
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/trajectory/trajectory.h"
-#include "core/odometry/weights/adaptive_threshold.h"
-#include "core/odometry/weights/weight_balance.h"
-#include "core/odometry/window/association.h"
-#include "core/odometry/window/deskew.h"
-#include "core/odometry/window/loss_watch.h"
-#include "core/odometry/window/segment_interval.h"
-#include "core/odometry/window/window_statistics.h"
+#include "core/odometry/window/window.h"
 
 namespace trajlo {
-
-struct WindowOptions {
-  /// The paper's K: segments that are estimated together.
-  int segments = 4;
-  /// `predicted` is for comparison: discrete poses, deskewed by constant velocity, as in KISS-ICP.
-  /// The first interval is moved by its own estimate in either case.
-  Deskewing deskewing = Deskewing::kEstimated;
-};
-
-struct InitializationOptions {
-  /// Estimates the motion during the first interval by registering its second half to its first
-  /// one; otherwise a stationary start is assumed, as in the paper.
-  bool estimate_motion = true;
-  /// The estimated motion is believed only if it brings this many times as many points onto planes
-  /// as standing still does ...
-  double min_gain = 1.15;
-  /// ... or simply more, where it is longer than this: at rest the estimate is off by centimetres,
-  /// and a street explains nearly as many points at any speed.
-  double clear_motion_m = 0.3;
-};
-
-/// Everything that the estimator can be told, by module.
-struct OdometryOptions {
-  SegmenterOptions segmenter;
-  AdaptiveIntervalOptions adaptive_interval;
-  MapPyramidOptions map;
-  AssociationOptions association;
-  AdaptiveThresholdOptions threshold;
-  WeightOptions weights;
-  WeightBalanceOptions weight_balance;
-  SolverOptions solver;
-  MarginalizationOptions marginalization;
-  WindowOptions window;
-  InitializationOptions initialization;
-  LostOptions lost;
-  /// Multiplies the covariances that are handed out: the window takes the map for exact and the
-  /// errors of its points for independent. 1 hands out what the information says.
-  double covariance_scale = 1.0;
-  /// 0 takes all cores. No result depends on it.
-  int threads = 0;
-};
 
 /// LiDAR odometry: scans go in, a continuous-time trajectory and a map come out.
 ///
@@ -72,7 +27,6 @@ class Odometry {
  public:
   explicit Odometry(const OdometryOptions& options,
                     const WindowSolverFactory& make_solver = MakeWindowSolver);
-  ~Odometry();
 
   /// Processes every window that this scan completes.
   void AddScan(const LidarScan& scan);
@@ -80,23 +34,53 @@ class Odometry {
   void Finish();
 
   /// Called after every window.
-  void OnWindow(std::function<void(const WindowStatistics&)> callback);
-
+  void OnWindow(std::function<void(const WindowStatistics&)> callback) {
+    on_window_ = std::move(callback);
+  }
   /// Called for every control pose when it leaves the window, with the covariance of its right
   /// perturbation [rho; theta] (m², m rad, rad²) by the information of its last window, times
   /// `covariance_scale`. Computed only if this is set.
-  void OnPose(std::function<void(const ControlPose&, const Matrix6d& covariance)> callback);
+  void OnPose(std::function<void(const ControlPose&, const Matrix6d& covariance)> callback) {
+    on_pose_ = std::move(callback);
+  }
 
   /// The control poses that have left the window (all of them after Finish).
-  const Trajectory& trajectory() const;
-  const MapPyramid& map() const;
-  const PointCounts& point_counts() const;
+  const Trajectory& trajectory() const { return trajectory_; }
+  const MapPyramid& map() const { return map_; }
+  const PointCounts& point_counts() const { return segmenter_.counts(); }
   /// When the estimator got lost, if it did (sticky).
-  std::optional<std::int64_t> lost_at_ns() const;
+  std::optional<std::int64_t> lost_at_ns() const { return lost_at_ns_; }
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  void ProcessSegments();
+  void Start(const SegmentCloud& cloud);
+  void Step(SegmentCloud cloud);
+  void BridgeGap(const SegmentCloud& gap);
+  void AssociateAndSolve(WindowStatistics* statistics);
+  void Learn(const SE3& T_world_predicted);
+  void Leave(WindowStatistics* statistics);
+  void Report(WindowStatistics* statistics);
+  void SettleFront();
+  void Settle(const ControlPose& pose, const Matrix6d& covariance);
+  void AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end);
+
+  const OdometryOptions options_;
+  ThreadPool threads_;
+  Segmenter segmenter_;
+  MapPyramid map_;
+  AdaptiveThreshold threshold_;
+  MotionPrior motion_prior_;
+  std::unique_ptr<WindowSolver> solver_;
+  LossWatch loss_watch_;
+  Window window_;
+  Trajectory trajectory_;
+  std::function<void(const WindowStatistics&)> on_window_;
+  std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
+  std::optional<std::int64_t> lost_at_ns_;
+  bool started_ = false;
+  std::int64_t windows_ = 0;
+  double segment_ms_ = 0.0;
+  std::vector<Eigen::Vector3d> points_world_;
 };
 
 }  // namespace trajlo

@@ -24,10 +24,10 @@ CsvRow MakeRow(const WindowStatistics& w) {
   row.Add("iterations", w.iterations);
   row.Add("rejected_steps", w.rejected_steps);
   row.Add("cost_registration", w.cost_registration);
-  row.Add("cost_smoothness", w.cost_smoothness);
+  row.Add("cost_motion", w.cost_motion);
   row.Add("cost_prior", w.cost_prior);
-  row.Add("smoothness_factor_translation", w.smoothness_factor_translation);
-  row.Add("smoothness_factor_rotation", w.smoothness_factor_rotation);
+  row.Add("translation_density_m2_s3", w.translation_density_m2_s3);
+  row.Add("rotation_density_rad2_s3", w.rotation_density_rad2_s3);
   row.Add("threshold_m", w.threshold_m);
   row.Add("kernel_m", w.kernel_m);
   row.Add("smallest_eigenvalue", w.smallest_eigenvalue);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/io/output_file.h"
-#include "core/odometry/window/window_statistics.h"
+#include "core/odometry/health/window_statistics.h"
 
 namespace trajlo {
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "core/odometry/window/window_statistics.h"
+#include "core/odometry/health/window_statistics.h"
 
 namespace trajlo {
 

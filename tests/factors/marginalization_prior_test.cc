@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "factors/segment_registration.h"
 #include "tests/support/autodiff_twins.h"
 #include "tests/support/factor_testing.h"
 #include "tests/support/random_poses.h"
@@ -20,56 +21,74 @@ Eigen::MatrixXd RandomMatrix(Random* random, int rows, int columns) {
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return random->Gaussian(1.0); });
 }
 
+MarginalizationPrior RandomPrior(Random* random, int poses) {
+  MarginalizationPrior prior;
+  for (int i = 0; i < poses; ++i) prior.linearization_points.push_back(random->Pose());
+  prior.sqrt_information = RandomMatrix(random, 6 * poses, 6 * poses);
+  prior.offset = RandomMatrix(random, 6 * poses, 1);
+  return prior;
+}
+
+std::vector<SE3> NearThePrior(const MarginalizationPrior& prior, Random* random, double angle,
+                              double distance_m) {
+  std::vector<SE3> poses;
+  for (const SE3& point : prior.linearization_points) {
+    poses.push_back(Plus(point, random->Tangent(angle, distance_m)));
+  }
+  return poses;
+}
+
 TEST(MarginalizationPrior, ValueAndJacobianAreThoseOfAutodiff) {
   Random random;
   for (int draw = 0; draw < 200; ++draw) {
     const auto angles = testing::DelicateAngles();
-    MarginalizationPrior prior;
-    prior.linearization_point = random.Pose();
-    prior.sqrt_information = RandomMatrix(&random, 6, 6);
-    prior.offset = RandomMatrix(&random, 6, 1);
-    const SE3 pose = Plus(prior.linearization_point,
-                          random.Tangent(std::min(angles[draw % angles.size()], 3.1), 1.0));
-    const MarginalizationPriorCost factor(prior, /*first_estimate_jacobians=*/false);
+    const MarginalizationPrior prior = RandomPrior(&random, 1);
+    const std::vector<SE3> poses =
+        NearThePrior(prior, &random, std::min(angles[draw % angles.size()], 3.1), 1.0);
+    const MarginalizationPriorCost factor(&prior);
     const ceres::AutoDiffCostFunction<PriorTwin, 6, 7> twin(
-        new PriorTwin{prior.linearization_point, prior.sqrt_information, prior.offset});
-    const double* blocks[1] = {pose.data()};
+        new PriorTwin{prior.linearization_points[0], prior.sqrt_information, prior.offset});
+    const double* blocks[1] = {poses[0].data()};
     Vector6d value, expected;
     factor.Evaluate(blocks, value.data(), nullptr);
     twin.Evaluate(blocks, expected.data(), nullptr);
     EXPECT_LT((value - expected).norm(), 1e-8 * (1 + expected.norm()));
-    const Eigen::MatrixXd expected_J = TangentJacobian(twin, {pose}, 0);
-    EXPECT_LT((TangentJacobian(factor, {pose}, 0) - expected_J).norm(), 1e-6 * expected_J.norm());
+    const Eigen::MatrixXd expected_J = TangentJacobian(twin, poses, 0);
+    EXPECT_LT((TangentJacobian(factor, poses, 0) - expected_J).norm(), 1e-6 * expected_J.norm());
   }
 }
 
 TEST(MarginalizationPrior, PassesCeresGradientCheckerAndNullJacobianCalls) {
   Random random(2);
-  MarginalizationPrior prior;
-  prior.linearization_point = random.Pose();
-  prior.sqrt_information = RandomMatrix(&random, 6, 6);
-  const SE3 pose = Plus(prior.linearization_point, random.Tangent(0.3, 0.4));
-  const MarginalizationPriorCost factor(prior, false);
-  testing::ExpectJacobiansMatchNumericOnes(factor, {pose}, 1e-6);
-  testing::ExpectNullJacobianFormsWork(factor, {pose});
+  for (int poses : {1, 2}) {
+    const MarginalizationPrior prior = RandomPrior(&random, poses);
+    const MarginalizationPriorCost factor(&prior);
+    const std::vector<SE3> at = NearThePrior(prior, &random, 0.3, 0.4);
+    testing::ExpectJacobiansMatchNumericOnes(factor, at, 1e-6);
+    testing::ExpectNullJacobianFormsWork(factor, at);
+  }
 }
 
 TEST(MarginalizationPrior, FirstEstimateJacobianIsTheOneAtTheLinearizationPoint) {
   Random random(3);
-  MarginalizationPrior prior;
-  prior.linearization_point = random.Pose();
-  prior.sqrt_information = RandomMatrix(&random, 6, 6);
-  const SE3 pose = Plus(prior.linearization_point, random.Tangent(0.3, 0.4));
-  EXPECT_EQ(prior.Jacobian(pose, true), prior.sqrt_information);
-  EXPECT_TRUE(prior.Jacobian(prior.linearization_point, false).isApprox(prior.sqrt_information));
+  MarginalizationPrior prior = RandomPrior(&random, 2);
+  const std::vector<SE3> poses = NearThePrior(prior, &random, 0.3, 0.4);
+  EXPECT_TRUE(prior.Jacobian(prior.linearization_points).isApprox(prior.sqrt_information));
+  EXPECT_FALSE(prior.Jacobian(poses).isApprox(prior.sqrt_information, 1e-3));
+  const Eigen::VectorXd residual = prior.Residual(poses);
+  prior.first_estimate_jacobians = true;
+  EXPECT_EQ(prior.Jacobian(poses), prior.sqrt_information);
+  EXPECT_EQ(prior.Residual(poses), residual);
 }
 
 TEST(MarginalizationPrior, SchurAndQrAgree) {
   Random random(4);
   for (int draw = 0; draw < 50; ++draw) {
-    const Eigen::Matrix<double, Eigen::Dynamic, 12> J = RandomMatrix(&random, 25, 12);
-    const Eigen::VectorXd r = RandomMatrix(&random, 25, 1);
-    const SE3 at = random.Pose();
+    const int poses = 1 + draw % 2;
+    const Eigen::MatrixXd J = RandomMatrix(&random, 30, 6 + 6 * poses);
+    const Eigen::VectorXd r = RandomMatrix(&random, 30, 1);
+    std::vector<SE3> at;
+    for (int i = 0; i < poses; ++i) at.push_back(random.Pose());
     const auto schur = MarginalizeSchur(J.transpose() * J, J.transpose() * r, at);
     const auto qr = MarginalizeQr(J, r, at);
     EXPECT_TRUE(schur.Information().isApprox(qr.Information(), 1e-10));
@@ -103,7 +122,7 @@ TEST(MarginalizationPrior, PoseByPoseOnALinearProblemEqualsTheFullBatch) {
       Vector12d g_local = link_g[k];
       H_local.topLeftCorner<6, 6>() += prior.Information();
       g_local.head<6>() += prior.Gradient();
-      prior = MarginalizeSchur(H_local, g_local, SE3());
+      prior = MarginalizeSchur(H_local, g_local, {SE3()});
     }
     const Vector6d last = -prior.Information().ldlt().solve(prior.Gradient());
     EXPECT_LT((last - batch.tail<6>()).norm(), 1e-10);
@@ -120,11 +139,11 @@ TEST(MarginalizationPrior, DirectionsThatNobodyMeasuredStayFree) {
     H(i, i) = H(6 + i, 6 + i) = 1.0;
     H(i, 6 + i) = H(6 + i, i) = -1.0;
   }
-  const auto prior = MarginalizeSchur(H, Vector12d::Zero(), SE3());
+  const auto prior = MarginalizeSchur(H, Vector12d::Zero(), {SE3()});
   EXPECT_LT(prior.Information().norm(), 1e-12) << "a relative measurement must not anchor a pose";
   // With an anchor on the leaving pose, exactly the five measured directions are held.
   H.topLeftCorner<6, 6>() += Matrix6d::Identity();
-  const Matrix6d information = MarginalizeSchur(H, Vector12d::Zero(), SE3()).Information();
+  const Matrix6d information = MarginalizeSchur(H, Vector12d::Zero(), {SE3()}).Information();
   EXPECT_NEAR(information(5, 5), 0.0, 1e-12);
   EXPECT_NEAR(information(0, 0), 0.5, 1e-12);
 }
@@ -138,7 +157,7 @@ TEST(MarginalizationPrior, TheLinearTermPullsToTheMinimumOfWhatWasEliminated) {
   const Vector6d a = Vector6d::Constant(0.3), b = Vector6d::LinSpaced(0.1, 0.6);
   Vector12d g;
   g << -a + b, -b;
-  const auto prior = MarginalizeSchur(H, g, SE3());
+  const auto prior = MarginalizeSchur(H, g, {SE3()});
   const Vector6d minimum = -prior.Information().ldlt().solve(prior.Gradient());
   EXPECT_LT((minimum - (a + b)).norm(), 1e-12);
 }
@@ -147,7 +166,7 @@ TEST(MarginalizationPrior, AnAnchorIsWhatItsSigmasSay) {
   const auto anchor = MakeAnchor(SE3(), 0.5, 0.1);
   Vector6d tau = Vector6d::Zero();
   tau << 0.5, 0, 0, 0, 0, 0.1;
-  EXPECT_NEAR(anchor.Residual(se3::Exp(tau)).squaredNorm(), 2.0, 1e-2);
+  EXPECT_NEAR(anchor.Residual({se3::Exp(tau)}).squaredNorm(), 2.0, 1e-2);
 }
 
 }  // namespace

@@ -174,43 +174,6 @@ TEST(SegmentRegistration, CostAloneEqualsTheCostOfTheLinearization) {
               linearizer.Linearize(points.data(), points.size()).cost, 1e-9);
 }
 
-TEST(SegmentRegistration, FirstEstimateAtTheCurrentStateIsBitForBitThePlainOne) {
-  Random random(6);
-  const SE3 begin = random.Pose();
-  const SE3 end = Plus(begin, random.Tangent(0.1, 0.3));
-  const auto points = RandomSegment(&random, begin, end, 100, 0.1);
-  const RegistrationNoise noise{0.1, {KernelKind::kCauchy, 2.0}};
-  const auto plain = LinearizeSegment(points, begin, end, noise);
-  const auto first_estimate = LinearizeSegment(points, begin, end, noise, begin);
-  EXPECT_EQ(plain.H, first_estimate.H);
-  EXPECT_EQ(plain.g, first_estimate.g);
-  EXPECT_EQ(plain.cost, first_estimate.cost);
-}
-
-TEST(SegmentRegistration, FirstEstimateTakesJacobiansThereAndResidualsHere) {
-  Random random(7);
-  const SE3 begin = random.Pose();
-  const SE3 end = Plus(begin, random.Tangent(0.1, 0.3));
-  const SE3 first = Plus(begin, random.Tangent(0.02, 0.05));
-  const auto points = RandomSegment(&random, begin, end, 41, 0.1);
-  const RegistrationNoise noise{0.1, {KernelKind::kNone, 1.0}};
-  Matrix12d H = Matrix12d::Zero();
-  Vector12d g = Vector12d::Zero();
-  for (const RegistrationPoint& point : points) {
-    const PointToPlaneCost factor(point, noise.sigma_m);
-    Eigen::Matrix<double, 1, 12> J;
-    J << TangentJacobian(factor, {first, end}, 0), TangentJacobian(factor, {first, end}, 1);
-    double r;
-    const double* blocks[2] = {begin.data(), end.data()};
-    factor.Evaluate(blocks, &r, nullptr);
-    H += J.transpose() * J;
-    g += J.transpose() * r;
-  }
-  const auto condensed = LinearizeSegment(points, begin, end, noise, first);
-  EXPECT_LT((condensed.H - H).norm(), 1e-9 * H.norm());
-  EXPECT_LT((condensed.g - g).norm(), 1e-9 * g.norm());
-}
-
 TEST(SegmentRegistration, AScanAtOneInstantOnlyConstrainsThatPose) {
   Random random(8);
   const SE3 begin = random.Pose();
@@ -220,24 +183,6 @@ TEST(SegmentRegistration, AScanAtOneInstantOnlyConstrainsThatPose) {
   const auto condensed = LinearizeSegment(points, begin, end, {0.1, {KernelKind::kNone, 1.0}});
   EXPECT_LT((condensed.H.topRows<6>().norm()), 1e-6);
   EXPECT_GT((condensed.H.bottomRightCorner<6, 6>().norm()), 1.0);
-}
-
-TEST(PointToPlane, FirstEstimateTakesTheJacobianThereAndTheResidualHere) {
-  Random random(9);
-  const SE3 begin = random.Pose();
-  const SE3 end = Plus(begin, random.Tangent(0.1, 0.3));
-  const SE3 first = Plus(begin, random.Tangent(0.02, 0.05));
-  const RegistrationPoint point = RandomPoint(&random, 0.7);
-  const PointToPlaneCost plain(point, 0.1), first_estimate(point, 0.1, first);
-  double r = 0.0, r_plain = 0.0;
-  const double* blocks[2] = {begin.data(), end.data()};
-  plain.Evaluate(blocks, &r_plain, nullptr);
-  first_estimate.Evaluate(blocks, &r, nullptr);
-  EXPECT_EQ(r, r_plain);
-  EXPECT_LT(
-      (TangentJacobian(first_estimate, {begin, end}, 1) - TangentJacobian(plain, {first, end}, 1))
-          .norm(),
-      1e-12);
 }
 
 TEST(SegmentResiduals, PassesCeresGradientCheckerAndNullJacobianCalls) {

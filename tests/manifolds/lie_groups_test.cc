@@ -154,10 +154,10 @@ TEST(Interpolation, OfPointsIsThatOfPoses) {
   for (double angle : DelicateAngles()) {
     const SE3 begin = random.Pose();
     const SE3 end = Plus(begin, random.Tangent(std::min(angle, 3.1), 1.0));
-    const PointInterpolator interpolator(begin, end);
+    const SegmentMotion motion(begin, end);
     for (double alpha : {0.0, 0.2, 0.7, 1.0}) {
       const Eigen::Vector3d p = 50.0 * random.Direction();
-      EXPECT_LT((interpolator(alpha, p) - Interpolate(begin, end, alpha) * p).norm(), 1e-12);
+      EXPECT_LT((motion.ToWorld(alpha, p) - Interpolate(begin, end, alpha) * p).norm(), 1e-12);
     }
   }
 }

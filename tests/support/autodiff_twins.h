@@ -25,6 +25,23 @@ struct SmoothnessTwin {
   }
 };
 
+struct WhiteNoiseAccelerationTwin {
+  double first_s, second_s;
+  Vector6d sqrt_information;
+  template <typename T>
+  bool operator()(const T* block_0, const T* block_1, const T* block_2, T* residual) const {
+    using Pose = autodiff::Pose<T>;
+    const Pose T_0 = Pose::FromBlock(block_0);
+    const Pose T_1 = Pose::FromBlock(block_1);
+    const Pose T_2 = Pose::FromBlock(block_2);
+    Eigen::Map<autodiff::Vec6<T>> r(residual);
+    const autodiff::Vec6<T> before = (T_0.Inverse() * T_1).Log() / T(first_s);
+    const autodiff::Vec6<T> after = (T_1.Inverse() * T_2).Log() / T(second_s);
+    r = sqrt_information.cast<T>().cwiseProduct(after - before);
+    return true;
+  }
+};
+
 struct PriorTwin {
   SE3 mean;
   Matrix6d S;

@@ -10,13 +10,12 @@ class OptionBinder;
 // Each adds the options of one or a few sections, in the order of the dump.
 void BindInput(RecordingOptions* input, OptionBinder* b);
 void BindSensing(SegmenterOptions* segmenter, OptionBinder* b);
-void BindAdaptiveInterval(AdaptiveIntervalOptions* interval, OptionBinder* b);
 void BindMap(MapPyramidOptions* pyramid, OptionBinder* b);
 void BindAssociation(AssociationOptions* association, OptionBinder* b);
 void BindThreshold(AdaptiveThresholdOptions* threshold, OptionBinder* b);
-void BindWeights(WeightOptions* weights, OptionBinder* b);
-void BindWeightBalance(WeightBalanceOptions* balance, OptionBinder* b);
-void BindSolver(SolverOptions* solver, OptionBinder* b);
+void BindRegistration(RegistrationOptions* registration, OptionBinder* b);
+void BindMotionPrior(MotionPriorOptions* prior, OptionBinder* b);
+void BindSolver(SolverOptions* solver, CeresFormOptions* form, OptionBinder* b);
 void BindMarginalization(MarginalizationOptions* marginalization, OptionBinder* b);
 void BindEstimation(OdometryOptions* odometry, OptionBinder* b);
 

@@ -34,24 +34,4 @@ void BindSensing(SegmenterOptions* segmenter, OptionBinder* b) {
          "A LiDAR that lags behind the others by more is not waited for.");
 }
 
-void BindAdaptiveInterval(AdaptiveIntervalOptions* interval, OptionBinder* b) {
-  b->Add("adaptive_interval.enabled", interval->enabled,
-         "Shortens segments while the motion asks for it; false keeps segmenter.interval_s.");
-  b->Add(
-      "adaptive_interval.divisions", interval->divisions, Range<int>{1, 20},
-      "The shortest segment is segmenter.interval_s over this; all lengths are multiples of it.");
-  b->Add("adaptive_interval.max_deviation_m", interval->max_deviation_m, Range<double>{1e-6, 10.0},
-         "The trajectory within a segment may bend away from constant velocity by this ...");
-  b->Add("adaptive_interval.lever_arm_m", interval->lever_arm_m, Range<double>{0.0, 1e3},
-         "... at a point this far away, which angular acceleration moves.");
-  b->Add("adaptive_interval.baseline_in_intervals", interval->baseline_in_intervals,
-         Range<double>{0.1, 100.0},
-         "Time between the velocities whose difference is the acceleration, in longest segments: "
-         "over less, the noise of the poses looks like acceleration.");
-  b->Add("adaptive_interval.memory_s", interval->memory_s, Range<double>{1e-3, 1e3},
-         "Time over which motion is remembered.");
-  b->Add("adaptive_interval.reserve", interval->reserve, Range<double>{1.0, 100.0},
-         "Segments grow again only if the bound would hold with this factor to spare.");
-}
-
 }  // namespace trajlo

@@ -25,7 +25,7 @@ const Names<TrustRegionKind> kTrustRegions = {
 
 }  // namespace
 
-void BindSolver(SolverOptions* solver, OptionBinder* b) {
+void BindSolver(SolverOptions* solver, CeresFormOptions* form, OptionBinder* b) {
   b->Add("solver.kind", solver->kind, kSolvers,
          "Ceres, or the hand-written Gauss-Newton of the paper.");
   b->Add("solver.max_rounds", solver->max_rounds, Range<int>{1, 1000},
@@ -36,24 +36,17 @@ void BindSolver(SolverOptions* solver, OptionBinder* b) {
          "The rounds end when no control pose moved by more than this ...");
   b->Add("solver.step_tolerance_rad", solver->step_tolerance_rad, Range<double>{0.0, 1.0},
          "... and turned by no more than this.");
-  CeresOptions& ceres = solver->ceres;
-  b->Add("solver.ceres.registration", ceres.registration, kRegistrationForms,
+  b->Add("solver.ceres.registration", form->registration, kRegistrationForms,
          "How the registration enters Ceres: 13 condensed rows a segment, computed in parallel or "
          "each by itself; one block a segment with a residual a point; one block a point with "
-         "analytic or automatic Jacobians (without first-estimate Jacobians).");
-  b->Add("solver.ceres.linear_solver", ceres.linear_solver, kLinearSolvers,
+         "analytic or automatic Jacobians.");
+  b->Add("solver.ceres.linear_solver", form->linear_solver, kLinearSolvers,
          "How Ceres solves the normal equations.");
-  b->Add("solver.ceres.trust_region", ceres.trust_region, kTrustRegions,
+  b->Add("solver.ceres.trust_region", form->trust_region, kTrustRegions,
          "How Ceres bounds its steps.");
-  b->Add("solver.ceres.initial_trust_region_radius", ceres.initial_trust_region_radius,
+  b->Add("solver.ceres.initial_trust_region_radius", form->initial_trust_region_radius,
          Range<double>{1e-10, 1e16},
          "The largest makes the first step a Gauss-Newton step to the last bits.");
-  b->Add("solver.ceres.function_tolerance", ceres.function_tolerance, Range<double>{0.0, 1.0},
-         "Ceres drops a step that lowers the cost by a smaller share, and stops.");
-  b->Add("solver.ceres.gradient_tolerance", ceres.gradient_tolerance, Range<double>{0.0, 1.0},
-         "Ceres stops when the largest entry of the gradient is smaller.");
-  b->Add("solver.ceres.parameter_tolerance", ceres.parameter_tolerance, Range<double>{0.0, 1.0},
-         "Ceres drops a step that is smaller than this share of the state, and stops.");
 }
 
 void BindMarginalization(MarginalizationOptions* marginalization, OptionBinder* b) {
@@ -61,7 +54,7 @@ void BindMarginalization(MarginalizationOptions* marginalization, OptionBinder* 
          "false: what leaves the window is forgotten, and its last pose is held by the anchor's "
          "sigmas.");
   b->Add("marginalization.first_estimate_jacobians", marginalization->first_estimate_jacobians,
-         "Keeps the Jacobians of a pose in the prior at the linearisation point of the prior.");
+         "Keeps the Jacobian of the prior as it was where the poses left.");
   b->Add("marginalization.use_qr", marginalization->use_qr,
          "Orthogonal elimination in place of the Schur complement.");
   b->Add("marginalization.anchor_sigma_translation_m", marginalization->anchor_sigma_translation_m,

@@ -12,6 +12,10 @@ const Names<KernelKind> kKernels = {{"none", KernelKind::kNone},
                                     {"geman_mcclure", KernelKind::kGemanMcClure},
                                     {"tukey", KernelKind::kTukey}};
 
+const Names<MotionPriorKind> kMotionPriors = {
+    {"white_noise_acceleration", MotionPriorKind::kWhiteNoiseAcceleration},
+    {"pseudo_velocity", MotionPriorKind::kPseudoVelocity}};
+
 }  // namespace
 
 void BindThreshold(AdaptiveThresholdOptions* threshold, OptionBinder* b) {
@@ -31,43 +35,36 @@ void BindThreshold(AdaptiveThresholdOptions* threshold, OptionBinder* b) {
          "Share of the newest error in the running mean of squares.");
 }
 
-void BindWeights(WeightOptions* weights, OptionBinder* b) {
-  b->Add("weights.registration_sigma_m", weights->registration_sigma_m, Range<double>{1e-4, 10.0},
-         "Sigma of a point's distance to its plane (paper: covariance 0.1).");
-  b->Add("weights.kernel", weights->kernel, kKernels, "Robust kernel on that distance.");
-  b->Add("weights.kernel_in_thresholds", weights->kernel_in_thresholds, Range<double>{1e-3, 100.0},
+void BindRegistration(RegistrationOptions* registration, OptionBinder* b) {
+  b->Add("registration.sigma_m", registration->sigma_m, Range<double>{1e-4, 10.0},
+         "Standard deviation of a point's distance to its plane.");
+  b->Add("registration.points_per_error", registration->points_per_error, Range<double>{1.0, 1e6},
+         "Points that hit the same surface share its error: so many count as one.");
+  b->Add("registration.kernel", registration->kernel, kKernels, "Robust kernel on that distance.");
+  b->Add("registration.kernel_in_thresholds", registration->kernel_in_thresholds,
+         Range<double>{1e-3, 100.0},
          "Width of the kernel: this share of the adaptive threshold, within the bounds below.");
-  b->Add("weights.min_kernel_m", weights->min_kernel_m, Range<double>{1e-3, 100.0},
+  b->Add("registration.min_kernel_m", registration->min_kernel_m, Range<double>{1e-3, 100.0},
          "The kernel is never narrower.");
-  b->Add("weights.max_kernel_m", weights->max_kernel_m, Range<double>{1e-3, 100.0},
+  b->Add("registration.max_kernel_m", registration->max_kernel_m, Range<double>{1e-3, 100.0},
          "The kernel is never wider.");
-  b->Add("weights.smoothness_sigma_translation_m", weights->smoothness_sigma_translation_m,
-         Range<double>{1e-6, 1e3},
-         "Sigma of a segment's change of translation against the one before (paper: covariance "
-         "0.05). A start only, unless weight_balance.enabled is false.");
-  b->Add("weights.smoothness_sigma_rotation_rad", weights->smoothness_sigma_rotation_rad,
-         Range<double>{1e-6, 1e3}, "The same for the rotation.");
-  b->Add("weights.smoothness_interval_s", weights->smoothness_interval_s, Range<double>{1e-4, 10.0},
-         "The sigmas are meant for segments up to this long; for longer ones they grow with the "
-         "square of the interval, as the way does that an acceleration changes.");
-  b->Add("weights.smoothness_scales_with_points", weights->smoothness_scales_with_points,
-         "Divides both by the root of the summed weights of the segment's associated points, so "
-         "that the balance between geometry and motion does not depend on the density of the "
-         "sensor.");
 }
 
-void BindWeightBalance(WeightBalanceOptions* balance, OptionBinder* b) {
-  b->Add("weight_balance.enabled", balance->enabled,
-         "Lets the smoothness sigmas find themselves from the residuals of the last seconds "
-         "(variance components); the configured ones are where they start.");
-  b->Add("weight_balance.memory_s", balance->memory_s, Range<double>{0.01, 1e6},
-         "Time over which residuals are remembered.");
-  b->Add("weight_balance.prior_s", balance->prior_s, Range<double>{0.0, 1e6},
-         "The configured sigmas count like residuals of this much time that agree with them.");
-  b->Add("weight_balance.points_per_error", balance->points_per_error, Range<double>{1.0, 1e6},
-         "Points that hit the same surfaces of the map share its errors: so many count as one.");
-  b->Add("weight_balance.max_factor", balance->max_factor, Range<double>{1.0, 1e4},
-         "The sigmas stay within this factor of the configured ones.");
+void BindMotionPrior(MotionPriorOptions* prior, OptionBinder* b) {
+  b->Add("motion_prior.kind", prior->kind, kMotionPriors,
+         "White noise on acceleration, which ties neighbouring segments, or the paper's "
+         "pseudo-velocity, which ties a segment to the last estimate of the one before.");
+  b->Add("motion_prior.self_tuning", prior->self_tuning,
+         "Lets the two densities below follow the motion; false keeps them.");
+  b->Add("motion_prior.translation_m2_s3", prior->translation_m2_s3, Range<double>{1e-9, 1e9},
+         "Spectral density of the acceleration: how freely the body moves. 1.5 times the squared "
+         "change of a segment's translation, by the cube of its length.");
+  b->Add("motion_prior.rotation_rad2_s3", prior->rotation_rad2_s3, Range<double>{1e-9, 1e9},
+         "The same for rotation.");
+  b->Add("motion_prior.min_translation_m2_s3", prior->min_translation_m2_s3,
+         Range<double>{1e-9, 1e9}, "Self-tuning never goes below this.");
+  b->Add("motion_prior.min_rotation_rad2_s3", prior->min_rotation_rad2_s3, Range<double>{1e-9, 1e9},
+         "The same for rotation.");
 }
 
 }  // namespace trajlo

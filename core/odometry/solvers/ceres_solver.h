@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <ceres/solver.h>
+#include <memory>
 
 #include "core/odometry/solvers/window_solver.h"
+#include "core/odometry/window/registration_evaluator.h"
 
 namespace trajlo {
 
-/// The window as a Ceres problem: control poses are parameter blocks on SE3Manifold, each segment
-/// has one condensed registration block and one smoothness block, the first pose has the prior.
-/// An evaluation callback computes the registration of all segments in parallel.
+/// The window as a Ceres problem: control poses are parameter blocks on SE3Manifold; each segment
+/// has one condensed registration block and one motion block, the first poses have the prior. An
+/// evaluation callback computes the registration of all segments in parallel. The problem lives on
+/// from solve to solve; its blocks read the window of the day.
+///
+/// Levenberg-Marquardt begins without damping, so that a step is one of Gauss-Newton unless it
+/// raises the cost.
 class CeresSolver final : public WindowSolver {
  public:
   CeresSolver(const SolverOptions& options, ThreadPool* threads);
+  ~CeresSolver() override;
 
-  SolveSummary Solve(WindowProblem* problem) override;
+  SolveSummary Solve(Window* window) override;
 
  private:
+  class LivingProblem;
   SolverOptions options_;
-  ceres::Solver::Options solver_options_;
   RegistrationEvaluator evaluator_;
-  std::vector<RegistrationNormalEquations> registration_;
+  std::unique_ptr<LivingProblem> problem_;
 };
 
 }  // namespace trajlo

@@ -7,32 +7,39 @@
 
 namespace trajlo {
 
-SolveSummary GaussNewtonSolver::Solve(WindowProblem* problem) {
-  const std::vector<SE3> start = problem->poses;
+SolveSummary GaussNewtonSolver::Solve(Window* window) {
+  const std::vector<SE3> start = window->Poses();
+  std::vector<SE3> poses = start;
+  Eigen::VectorXd xi;
   SolveSummary summary;
-  for (int iteration = 0; iteration < options_.iterations_per_round; ++iteration) {
+  bool is_small = false;
+  while (summary.iterations < options_.iterations_per_round && !is_small) {
     Stopwatch watch;
-    evaluator_.Evaluate(*problem, problem->poses, true, &registration_);
-    AssembleWindow(*problem, problem->poses, registration_, &window_);
-    summary.costs.push_back(window_.cost.Total());
+    evaluator_.Evaluate(*window, poses, true, &registration_);
+    AssembleWindow(*window, poses, registration_, &equations_);
+    summary.costs.push_back(equations_.cost.Total());
     summary.evaluate_s += watch.Seconds();
-    const Eigen::VectorXd xi = -window_.H.ldlt().solve(window_.g);
+    xi = -equations_.H.ldlt().solve(equations_.g);
     summary.linear_solve_s += watch.Seconds();
     if (!xi.allFinite()) {
-      problem->poses = start;
       summary.finite = false;
       return summary;
     }
-    const std::vector<SE3> before = problem->poses;
-    for (std::size_t k = 0; k < problem->poses.size(); ++k) {
-      const Vector6d xi_k = xi.segment<6>(6 * static_cast<Eigen::Index>(k));
-      problem->poses[k] = Plus(before[k], xi_k);
+    const std::vector<SE3> before = poses;
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      poses[k] = Plus(before[k], xi.segment<6>(6 * static_cast<Eigen::Index>(k)));
     }
     ++summary.iterations;
-    if (MeasureStep(before, problem->poses).IsSmall(options_)) break;
+    is_small = MeasureStep(before, poses).IsSmall(options_);
   }
-  summary.cost = window_.cost;
-  summary.step = MeasureStep(start, problem->poses);
+  summary.step = MeasureStep(start, poses);
+  window->SetPoses(poses);
+  ShiftRegistration(xi, &registration_);
+  summary.cost = CostWithoutRegistration(*window, poses);
+  for (std::size_t k = 0; k < registration_.size(); ++k) {
+    window->segments[k].registration = registration_[k];
+    summary.cost.registration += registration_[k].cost;
+  }
   return summary;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/odometry/solvers/window_solver.h"
+#include "core/odometry/window/registration_evaluator.h"
 
 namespace trajlo {
 
@@ -11,13 +12,13 @@ class GaussNewtonSolver final : public WindowSolver {
   GaussNewtonSolver(const SolverOptions& options, ThreadPool* threads)
       : options_(options), evaluator_(threads) {}
 
-  SolveSummary Solve(WindowProblem* problem) override;
+  SolveSummary Solve(Window* window) override;
 
  private:
   SolverOptions options_;
   RegistrationEvaluator evaluator_;
   std::vector<RegistrationNormalEquations> registration_;
-  WindowNormalEquations window_;
+  WindowNormalEquations equations_;
 };
 
 }  // namespace trajlo

@@ -25,19 +25,13 @@ struct AssociationOptions {
 /// The planes of one segment's points, kept from round to round.
 class SegmentAssociation {
  public:
-  struct Counts {
-    int searched = 0;
-    int associated = 0;
-  };
-
   /// Associates every point at its own time on T_begin..T_end. `renew` also looks up again the
   /// points that found no plane before (the map may have grown since).
-  Counts Associate(const std::vector<SegmentPoint>& points, const SE3& T_begin, const SE3& T_end,
-                   const MapPyramid& map, const AssociationOptions& options, double threshold_m,
-                   bool renew, ThreadPool* threads);
-
-  /// The associated points, in the order of the segment's points.
-  const std::vector<RegistrationPoint>& registration_points() const { return active_; }
+  /// `associated` receives those with a plane, in the order of `points`; it is left as it is where
+  /// no point was looked up anew. Returns the number of look-ups.
+  int Associate(const std::vector<SegmentPoint>& points, const SE3& T_begin, const SE3& T_end,
+                const MapPyramid& map, const AssociationOptions& options, double threshold_m,
+                bool renew, ThreadPool* threads, std::vector<RegistrationPoint>* associated);
 
  private:
   struct Entry {
@@ -47,7 +41,6 @@ class SegmentAssociation {
     enum class State : unsigned char { kNew, kNone, kPlane } state = State::kNew;
   };
   std::vector<Entry> entries_;
-  std::vector<RegistrationPoint> active_;
   std::vector<int> chunk_searched_;
 };
 

@@ -15,7 +15,7 @@ using trajlo::testing::SyntheticWorld;
 SolverVariant Variant(const std::string& name, const std::string& settings) {
   RunConfig config;
   ApplyOverrides(settings, &config);
-  return {name, settings, config.odometry};
+  return {name, settings, config.odometry, config.ceres_form};
 }
 
 struct LockstepRun {
@@ -70,7 +70,7 @@ TEST(Lockstep, AllSolversOfOneEnergyEndAtTheSamePosesAndCost) {
 
 TEST(Lockstep, DoesNotChangeTheRunAndComparesEveryNthWindow) {
   const LockstepRun all = RunAll({Variant("gauss_newton", "solver.kind=gauss_newton")}, 1);
-  const LockstepRun some = RunAll({Variant("tukey", "weights.kernel=tukey")}, 3);
+  const LockstepRun some = RunAll({Variant("tukey", "registration.kernel=tukey")}, 3);
   EXPECT_EQ(some.records.size(), static_cast<std::size_t>((some.windows + 2) / 3));
   ASSERT_EQ(all.poses.size(), some.poses.size());
   for (std::size_t i = 0; i < all.poses.size(); ++i) {

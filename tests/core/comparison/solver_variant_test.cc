@@ -53,10 +53,10 @@ TEST(SolverVariants, OnlySolverKernelAndLinearisationConcernASingleWindow) {
   const RunConfig base;
   const auto variants = Load(
       "variants:\n"
-      "  - {name: a, set: \"solver.kind=gauss_newton,weights.kernel=huber\"}\n"
+      "  - {name: a, set: \"solver.kind=gauss_newton,registration.kernel=huber\"}\n"
       "  - {name: b, set: \"marginalization.first_estimate_jacobians=false\"}\n"
       "  - {name: c, set: \"window.segments=2\"}\n"
-      "  - {name: d, set: \"weights.registration_sigma_m=0.2\"}\n");
+      "  - {name: d, set: \"registration.sigma_m=0.2\"}\n");
   EXPECT_TRUE(IsAboutOneWindow(variants[0], base));
   EXPECT_TRUE(IsAboutOneWindow(variants[1], base));
   EXPECT_FALSE(IsAboutOneWindow(variants[2], base));

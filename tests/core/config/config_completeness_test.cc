@@ -57,20 +57,19 @@ std::string ReadFile(const std::filesystem::path& path) {
 
 TEST(ConfigCompleteness, EveryFieldOfTheOptionsHasAKey) {
   EXPECT_EQ(FieldCount<SegmenterOptions>(), KeysIn("segmenter") + KeysIn("sensor"));
-  EXPECT_EQ(FieldCount<AdaptiveIntervalOptions>(), KeysIn("adaptive_interval"));
   EXPECT_EQ(FieldCount<MapOptions>() + FieldCount<MapPyramidOptions>() - 1, KeysIn("map"));
   EXPECT_EQ(FieldCount<AssociationOptions>(), KeysIn("association") + 1);  // `plane`
   EXPECT_EQ(FieldCount<PlaneFitOptions>(), KeysIn("association.plane"));
   EXPECT_EQ(FieldCount<AdaptiveThresholdOptions>(), KeysIn("threshold"));
-  EXPECT_EQ(FieldCount<WeightOptions>(), KeysIn("weights"));
-  EXPECT_EQ(FieldCount<WeightBalanceOptions>(), KeysIn("weight_balance"));
-  EXPECT_EQ(FieldCount<SolverOptions>(), KeysIn("solver") + 1);  // `ceres`
-  EXPECT_EQ(FieldCount<CeresOptions>(), KeysIn("solver.ceres"));
+  EXPECT_EQ(FieldCount<RegistrationOptions>(), KeysIn("registration"));
+  EXPECT_EQ(FieldCount<MotionPriorOptions>(), KeysIn("motion_prior"));
+  EXPECT_EQ(FieldCount<SolverOptions>(), KeysIn("solver"));
+  EXPECT_EQ(FieldCount<CeresFormOptions>(), KeysIn("solver.ceres"));
   EXPECT_EQ(FieldCount<MarginalizationOptions>(), KeysIn("marginalization"));
   EXPECT_EQ(FieldCount<WindowOptions>(), KeysIn("window"));
   EXPECT_EQ(FieldCount<InitializationOptions>(), KeysIn("initialization"));
   EXPECT_EQ(FieldCount<LostOptions>(), KeysIn("lost"));
-  EXPECT_EQ(FieldCount<OdometryOptions>(), 12 + KeysIn(""));  // Twelve sections.
+  EXPECT_EQ(FieldCount<OdometryOptions>(), 11 + KeysIn(""));  // Eleven sections.
   EXPECT_EQ(FieldCount<RecordingOptions>(), KeysIn("input"));
 }
 

@@ -121,8 +121,9 @@ TEST(Overrides, ErrorsNameTheFlagAndTheKeyButNoLine) {
 
 TEST(Config, DumpLoadsBackToTheSameValues) {
   RunConfig config = Overridden(
-      "window.segments=3,map.kind=kd_tree,weights.kernel=tukey,solver.ceres.trust_region=dogleg,"
-      "weights.registration_sigma_m=0.1234567890123456,solver.ceres.parameter_tolerance=1e-17,"
+      "window.segments=3,map.kind=kd_tree,registration.kernel=tukey,solver.ceres.trust_region="
+      "dogleg,"
+      "registration.sigma_m=0.1234567890123456,solver.ceres.initial_trust_region_radius=1e7,"
       "input.time_field='a \"b\": #c',input.stamps_file=x/y.txt,input.point_time=none,"
       "input.time_unit=us,input.stamp_at=end,marginalization.enabled=false");
   const Eigen::Quaterniond q = Eigen::Quaterniond(0.3, -0.2, 0.7, 0.1).normalized();
@@ -133,7 +134,7 @@ TEST(Config, DumpLoadsBackToTheSameValues) {
   ASSERT_EQ(back.odometry.segmenter.T_body_lidar.size(), 2u);
   EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].q.coeffs(), q.coeffs());
   EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].t.y(), 1.0 / 3.0);
-  EXPECT_EQ(back.odometry.weights.registration_sigma_m, 0.1234567890123456);
+  EXPECT_EQ(back.odometry.registration.sigma_m, 0.1234567890123456);
 }
 
 TEST(Config, ListedKeysCanBeSetToTheirDefaults) {
@@ -157,7 +158,7 @@ TEST(Config, ContradictionsNameBothKeysAndTheirValues) {
   for (const char* settings :
        {"segmenter.interval_s=0.5", "segmenter.max_gap_s=0.02", "map.min_point_spacing_m=0.9",
         "map.radius_m=2,map.voxel_size_m=3", "association.plane.neighbors=3", "threshold.min_m=90",
-        "threshold.max_m=0.001", "weights.min_kernel_m=50"}) {
+        "threshold.max_m=0.001", "registration.min_kernel_m=50"}) {
     EXPECT_NE(problem(settings), "") << settings;
   }
 }

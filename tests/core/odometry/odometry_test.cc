@@ -126,8 +126,10 @@ TEST(Odometry, CeresAndGaussNewtonGiveTheSameTrajectory) {
     const auto& b = gauss_newton.odometry->trajectory().poses();
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-      // The last bits differ, and a window hands its rounding on to the next.
-      EXPECT_LT((a[i].T_world_body.t - b[i].T_world_body.t).norm(), 1e-7) << i;
+      // The last bits differ, and a window hands its rounding on to the next. After several steps
+      // Ceres has linearised at the solution, where Gauss-Newton shifts by the last step.
+      EXPECT_LT((a[i].T_world_body.t - b[i].T_world_body.t).norm(), iterations == 1 ? 1e-8 : 1e-6)
+          << i;
     }
   }
 }
@@ -177,13 +179,13 @@ TEST(Odometry, WorksOnTheKdTreeMapToo) {
   EXPECT_LT(LargestError(world, run.odometry->trajectory(), 1.45), 0.03);
 }
 
-TEST(Odometry, WorksWithQrMarginalizationAndWithoutFirstEstimates) {
+TEST(Odometry, WorksWithQrMarginalizationAndWithFirstEstimates) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;
   OdometryOptions options = RoomOptions();
   options.marginalization.use_qr = true;
   EXPECT_LT(LargestError(world, RunOn(world, options, 15).odometry->trajectory(), 1.45), 0.03);
-  options.marginalization.first_estimate_jacobians = false;
+  options.marginalization.first_estimate_jacobians = true;
   EXPECT_LT(LargestError(world, RunOn(world, options, 15).odometry->trajectory(), 1.45), 0.03);
 }
 
@@ -290,69 +292,6 @@ TEST(Odometry, RunsInDiscreteModeOnMotionCorrectedScans) {
   EXPECT_LT(LargestError(world, run.odometry->trajectory(), 2.5), 0.03);
 }
 
-/// At rest, then half a second of shaking at 2 and 4 Hz, then at rest again.
-SE3 Shaken(double t) {
-  const double s = std::clamp(t - 0.8, 0.0, 0.5);
-  return SE3(so3::Exp({0.0, 0.0, 0.25 * (1.0 - std::cos(8.0 * M_PI * s))}),
-             {0.1 * (1.0 - std::cos(4.0 * M_PI * s)), 0.0, 0.0});
-}
-
-OdometryOptions AdaptiveOptions() {
-  OdometryOptions options = RoomOptions();
-  options.adaptive_interval.enabled = true;
-  return options;
-}
-
-TEST(Odometry, ShortensSegmentsInAShakeAndFollowsItBetter) {
-  SyntheticWorld world;
-  world.T_world_body = Shaken;
-  const RunResult fixed = RunOn(world, RoomOptions(), 32);
-  const RunResult adaptive = RunOn(world, AdaptiveOptions(), 32);
-  const auto& poses = adaptive.odometry->trajectory().poses();
-  std::int64_t shortest_ns = 1'000'000'000;
-  for (std::size_t i = 2; i < poses.size(); ++i) {
-    const std::int64_t duration_ns = poses[i].t_ns - poses[i - 1].t_ns;
-    const double t = 1e-9 * static_cast<double>(poses[i].t_ns - world.start_ns);
-    if (t < 0.8 || (t > 2.8 && t < 3.15)) {
-      EXPECT_EQ(duration_ns, 30'000'000) << t;
-    }
-    if (t < 3.15) shortest_ns = std::min(shortest_ns, duration_ns);
-  }
-  EXPECT_EQ(shortest_ns, 10'000'000);
-  EXPECT_LT(LargestError(world, adaptive.odometry->trajectory(), 3.15),
-            LargestError(world, fixed.odometry->trajectory(), 3.15));
-}
-
-TEST(Odometry, ChoosesTheSameIntervalsForAnyThreadsAndAnyLengthOfScans) {
-  SyntheticWorld world;
-  world.T_world_body = Shaken;
-  OdometryOptions options = AdaptiveOptions();
-  options.threads = 1;
-  const RunResult one = RunOn(world, options, 16);
-  options.threads = 2;
-  Odometry two(options);
-  for (int i = 0; i < 16; ++i) {
-    const LidarScan sweep = world.Sweep(i);
-    for (const std::size_t part : {0, 1, 2}) {  // Cut into thirds.
-      LidarScan scan = sweep;
-      const auto at = [&](std::size_t third) {
-        return sweep.points.begin() + static_cast<std::ptrdiff_t>(third * sweep.points.size() / 3);
-      };
-      scan.points.assign(at(part), at(part + 1));
-      two.AddScan(scan);
-    }
-  }
-  two.Finish();
-  const auto& a = one.odometry->trajectory().poses();
-  const auto& b = two.trajectory().poses();
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_GT(a.size(), 1300u / 30u + 10u) << "no interval was shortened";
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].t_ns, b[i].t_ns);
-    EXPECT_EQ(std::memcmp(a[i].T_world_body.data(), b[i].T_world_body.data(), 56), 0);
-  }
-}
-
 TEST(Odometry, DeskewingByPredictionIsAsGoodAtConstantTwistAndWorseInAShake) {
   SyntheticWorld world;
   const auto errors = [&world](Deskewing deskewing) {
@@ -389,13 +328,27 @@ TEST(Odometry, TwoLidarsWithExtrinsicsMakeOneTrajectory) {
   EXPECT_LT(LargestError(world, odometry.trajectory(), 1.95), 0.02);
 }
 
-TEST(Odometry, KeepsTheMapBounded) {
+TEST(Odometry, DropsTheMapThatItHasLeft) {
   SyntheticWorld world;
+  world.T_world_body = ConstantTwist;
   OdometryOptions options = RoomOptions();
-  const RunResult ten = RunOn(world, options, 10);
-  const RunResult thirty = RunOn(world, options, 30);
-  EXPECT_LT(static_cast<double>(thirty.odometry->map().size()),
-            1.3 * static_cast<double>(ten.odometry->map().size()));
+  const RunResult all = RunOn(world, options, 30);
+  options.map.finest.radius_m = 6.0;
+  const RunResult near = RunOn(world, options, 30);
+  EXPECT_LT(near.odometry->map().size(), all.odometry->map().size() * 3 / 4);
+}
+
+TEST(Odometry, KeepsItsOwnCopyOfTheOptions) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  auto options = std::make_unique<OdometryOptions>(RoomOptions());
+  Odometry odometry(*options);
+  options->window.segments = 1;
+  options->lost.max_correction_m = 0.0;
+  options.reset();
+  for (int i = 0; i < 10; ++i) odometry.AddScan(world.Sweep(i));
+  odometry.Finish();
+  EXPECT_LT(LargestError(world, odometry.trajectory(), 0.95), 0.03);
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/belief.h"
+
+#include "core/odometry/health/condition.h"
+
+namespace trajlo {
+
+bool IsBelievable(const SE3& T_world_predicted, const SE3& T_world_estimated,
+                  const LostOptions& options) {
+  const SE3 correction = T_world_predicted.Inverse() * T_world_estimated;
+  return correction.t.norm() <= options.max_correction_m &&
+         so3::Log(correction.q).norm() <= options.max_correction_rad;
+}
+
+void Revert(const std::vector<SE3>& poses, Window* window) {
+  window->SetPoses(poses);
+  for (Segment& segment : window->segments) segment.registration = {};
+}
+
+void Judge(const Window& window, const LostOptions& options, WindowStatistics* statistics) {
+  if (!window.is_believed) {
+    statistics->flags |= kFlagReverted;
+  } else if (!statistics->has_converged) {
+    statistics->flags |= kFlagNotConverged;
+  }
+  if (window.segments.back().points.empty()) statistics->flags |= kFlagNoPoints;
+  const WindowCondition condition = ConditionOf(window);
+  statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
+  statistics->weak_direction = condition.weak_direction;
+  if (condition.smallest_eigenvalue < options.degenerate_eigenvalue) {
+    statistics->flags |= kFlagDegenerate;
+  }
+}
+
+}  // namespace trajlo

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/odometry/health/loss_watch.h"
+#include "core/odometry/window/window.h"
+
+namespace trajlo {
+
+/// Whether the newest pose is no farther from its prediction than a sensor can have moved.
+bool IsBelievable(const SE3& T_world_predicted, const SE3& T_world_estimated,
+                  const LostOptions& options);
+
+/// Puts the poses back to `poses`. The planes belong to poses that are not believed: the
+/// registration is forgotten.
+void Revert(const std::vector<SE3>& poses, Window* window);
+
+/// Sets the flags of a window from how its solve went and from how its points hold it.
+void Judge(const Window& window, const LostOptions& options, WindowStatistics* statistics);
+
+}  // namespace trajlo

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/window_statistics.h"
+
+namespace trajlo {
+
+void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& options) {
+  ++rounds;
+  iterations += solve.iterations;
+  rejected_steps += solve.rejected_steps;
+  cost_registration = solve.cost.registration;
+  cost_motion = solve.cost.motion;
+  cost_prior = solve.cost.prior;
+  last_step_m = solve.step.translation_m;
+  last_step_rad = solve.step.rotation_rad;
+  is_finite = solve.finite;
+  // Where every step was rejected, the window is as unsolved as before.
+  has_converged =
+      solve.step.IsSmall(options) && (solve.iterations > 0 || solve.rejected_steps == 0);
+}
+
+void Describe(const Window& window, WindowStatistics* statistics) {
+  statistics->begin_ns = window.begin_ns;
+  statistics->end_ns = window.segments.back().cloud.end_ns;
+  statistics->segments = window.size();
+  statistics->kernel_m = window.noise.kernel.width * window.noise.sigma_m;
+  statistics->points = 0;
+  statistics->inliers = 0;
+  for (const Segment& segment : window.segments) {
+    statistics->points += static_cast<int>(segment.cloud.registration_points.size());
+    statistics->inliers += static_cast<int>(segment.points.size());
+  }
+}
+
+}  // namespace trajlo

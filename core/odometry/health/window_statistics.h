@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "core/odometry/solvers/window_solver.h"
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+/// What can be wrong with a window; bits of WindowStatistics::flags.
+enum WindowFlag : unsigned {
+  kFlagNoPoints = 1u << 0,  ///< The newest segment has no associated point: smoothness carries it.
+  kFlagGap = 1u << 1,       ///< A pause in the recording was bridged.
+  kFlagReverted = 1u << 2,  ///< A solve was not finite or jumped: the prediction stands.
+  kFlagNotConverged = 1u << 3,  ///< The rounds ran out before the steps became small.
+  kFlagDegenerate = 1u << 4,    ///< A direction is held by smoothness and prior alone.
+  kFlagLost = 1u << 5,          ///< The scene is no longer followed: see LossWatch.
+};
+
+/// One line of windows.csv: what happened in one sliding-window solve.
+struct WindowStatistics {
+  std::int64_t index = 0;
+  std::int64_t begin_ns = 0;  ///< First control pose of the window.
+  std::int64_t end_ns = 0;    ///< Newest control pose.
+  int segments = 0;
+  int points = 0;          ///< Registration points in the window.
+  int inliers = 0;         ///< Those with a plane in the last round.
+  int searched = 0;        ///< Map queries over all rounds; the others kept their plane.
+  int rounds = 0;          ///< associate ↔ solve rounds.
+  int iterations = 0;      ///< Solver steps over all rounds.
+  int rejected_steps = 0;  ///< Those that Ceres did not take because they raise the cost.
+  double cost_registration = 0.0;
+  double cost_motion = 0.0;
+  double cost_prior = 0.0;
+  /// Spectral densities of the acceleration for the next window: see MotionPrior.
+  double translation_density_m2_s3 = 0.0;
+  double rotation_density_rad2_s3 = 0.0;
+  double threshold_m = 0.0;
+  double kernel_m = 0.0;
+  /// Smallest eigenvalue of the registration information of the newest control poses, per point,
+  /// and its direction [rho; theta] in the body frame.
+  double smallest_eigenvalue = 0.0;
+  Vector6d weak_direction = Vector6d::Zero();
+  double last_step_m = 0.0;
+  double last_step_rad = 0.0;
+  double milliseconds_segment = 0.0;
+  double milliseconds_associate = 0.0;
+  double milliseconds_solve = 0.0;
+  double milliseconds_marginalize = 0.0;
+  double milliseconds_map = 0.0;
+  unsigned flags = 0;
+  bool has_converged = false;
+  bool is_finite = true;
+
+  /// One more round of the window.
+  void Add(const SolveSummary& solve, const SolverOptions& options);
+
+  double InlierShare() const { return points > 0 ? static_cast<double>(inliers) / points : 0.0; }
+};
+
+/// Fills in what the window itself shows.
+void Describe(const Window& window, WindowStatistics* statistics);
+
+}  // namespace trajlo

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/solvers/ceres_steps.h"
+
+#include <algorithm>
+
+namespace trajlo {
+namespace {
+
+/// From no damping to a step that is short enough, Levenberg-Marquardt needs about so many tries.
+constexpr int kMostRejectedSteps = 12;
+
+}  // namespace
+
+ceres::CallbackReturnType StopAfterSteps::operator()(const ceres::IterationSummary& iteration) {
+  if (iteration.iteration == 0) {
+    costs_.push_back(iteration.cost);
+    return ceres::SOLVER_CONTINUE;
+  }
+  if (!iteration.step_is_successful) {
+    ++rejected_;
+    return ceres::SOLVER_CONTINUE;
+  }
+  costs_.push_back(iteration.cost);
+  const std::vector<SE3> now = state_->Poses();
+  const bool is_done = static_cast<int>(costs_.size()) > options_.iterations_per_round ||
+                       MeasureStep(before_, now).IsSmall(options_);
+  before_ = now;
+  return is_done ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+}
+
+ceres::Solver::Options UndampedSolverOptions(int steps) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.initial_trust_region_radius = 1e16;
+  options.max_num_iterations = steps + kMostRejectedSteps;
+  // Below these Ceres computes a step and does not take it; the rounds end by the size of steps.
+  options.function_tolerance = 1e-14;
+  options.gradient_tolerance = 0.0;
+  options.parameter_tolerance = 0.0;
+  options.update_state_every_iteration = true;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  return options;
+}
+
+SolveSummary Summarize(const StopAfterSteps& stop, const ceres::Solver::Summary& ceres_summary) {
+  SolveSummary summary;
+  summary.costs = stop.costs();
+  summary.iterations = std::max(0, static_cast<int>(stop.costs().size()) - 1);
+  summary.rejected_steps = stop.rejected();
+  summary.evaluate_s = ceres_summary.residual_evaluation_time_in_seconds +
+                       ceres_summary.jacobian_evaluation_time_in_seconds;
+  summary.linear_solve_s = ceres_summary.linear_solver_time_in_seconds;
+  return summary;
+}
+
+void AcceptSolution(const std::vector<SE3>& start, const std::vector<SE3>& solution,
+                    const ceres::Solver::Summary& ceres_summary, Window* window,
+                    SolveSummary* summary) {
+  summary->finite = ceres_summary.IsSolutionUsable();
+  for (const SE3& pose : solution) summary->finite = summary->finite && pose.IsFinite();
+  if (!summary->finite) return;
+  summary->step = MeasureStep(start, solution);
+  window->SetPoses(solution);
+  summary->cost = CostWithoutRegistration(*window, solution);
+  summary->cost.registration = ceres_summary.final_cost - summary->cost.Total();
+}
+
+}  // namespace trajlo

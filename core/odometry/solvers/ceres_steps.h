@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ceres/iteration_callback.h>
+#include <ceres/solver.h>
+
+#include <vector>
+
+#include "core/odometry/solvers/pose_blocks.h"
+#include "core/odometry/solvers/window_solver.h"
+
+namespace trajlo {
+
+/// Ends a Ceres solve as the Gauss-Newton solver ends: after as many steps as are wanted (Ceres's
+/// own bound counts rejected ones, too), or after a small one. Keeps the costs.
+class StopAfterSteps final : public ceres::IterationCallback {
+ public:
+  /// Both must outlive it.
+  StopAfterSteps(const SolverOptions& options, const PoseBlocks* state)
+      : options_(options), state_(state), before_(state->Poses()) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override;
+
+  /// At the start and after each step that was taken.
+  const std::vector<double>& costs() const { return costs_; }
+  int rejected() const { return rejected_; }
+
+ private:
+  const SolverOptions& options_;
+  const PoseBlocks* state_;
+  std::vector<SE3> before_;
+  std::vector<double> costs_;
+  int rejected_ = 0;
+};
+
+/// Levenberg-Marquardt that begins without damping, so that its steps are those of Gauss-Newton
+/// until one raises the cost.
+ceres::Solver::Options UndampedSolverOptions(int steps);
+
+/// Costs, steps and times of a solve.
+SolveSummary Summarize(const StopAfterSteps& stop, const ceres::Solver::Summary& ceres_summary);
+
+/// Puts the window to the solution if it is one; fills in the rest of the summary.
+void AcceptSolution(const std::vector<SE3>& start, const std::vector<SE3>& solution,
+                    const ceres::Solver::Summary& ceres_summary, Window* window,
+                    SolveSummary* summary);
+
+}  // namespace trajlo

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/odometry/weights/registration_options.h"
+#include "core/odometry/window/association.h"
+
+namespace trajlo {
+
+struct InitialMotion {
+  /// The body's twist over the whole first interval: T(alpha) = Exp(alpha tau).
+  Vector6d tau = Vector6d::Zero();
+  /// Share of the second half's points that lie on planes of the first half under tau, and under
+  /// the hypothesis that the sensor stood still.
+  double agreement = 0.0;
+  double agreement_at_rest = 0.0;
+};
+
+/// Finds how the sensor moved during the first interval from nothing but the interval itself: the
+/// points of its second half, each at its own time on Exp(alpha tau), are registered to those of
+/// its first half, which move with the same tau. A wrong tau blurs the first half by a third of
+/// what it displaces the second, so each round leaves about a third of the error. The voxels start
+/// coarse and shrink. `registration` gives the robust kernel.
+InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
+                                    const AssociationOptions& association,
+                                    const RegistrationOptions& registration, ThreadPool* threads);
+
+struct InitializationOptions {
+  /// Estimates the motion during the first interval; otherwise a stationary start is assumed, as in
+  /// the paper.
+  bool estimate_motion = true;
+  /// The estimated motion is believed only if it brings this many times as many points onto planes
+  /// as standing still does ...
+  double min_gain = 1.15;
+  /// ... or simply more, where it is longer than this: at rest the estimate is off by centimetres,
+  /// and a street explains nearly as many points at any speed.
+  double clear_motion_m = 0.3;
+};
+
+/// The twist over the first interval [rho; theta] (m, rad): the estimated one if it is believed,
+/// else zero.
+Vector6d MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOptions& options,
+                               const MapPyramidOptions& map_options,
+                               const AssociationOptions& association,
+                               const RegistrationOptions& registration, ThreadPool* threads);
+
+}  // namespace trajlo

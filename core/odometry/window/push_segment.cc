@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/window/push_segment.h"
+
+#include <utility>
+
+namespace trajlo {
+namespace {
+
+/// How well the velocity at the begin of a window is known, by which only its first segment is
+/// held.
+constexpr double kBeginVelocitySigma_m_s = 3.0;
+constexpr double kBeginVelocitySigma_rad_s = 3.0;
+
+SmoothnessTerm BeginVelocity(const Vector6d& velocity, double duration_s) {
+  SmoothnessTerm term;
+  term.tau_expected = velocity * duration_s;
+  term.sqrt_information.head<3>().setConstant(1.0 / (kBeginVelocitySigma_m_s * duration_s));
+  term.sqrt_information.tail<3>().setConstant(1.0 / (kBeginVelocitySigma_rad_s * duration_s));
+  return term;
+}
+
+}  // namespace
+
+Window MakeWindow(std::int64_t begin_ns, const SE3& T_world_begin,
+                  const MarginalizationOptions& options) {
+  Window window;
+  window.begin_ns = begin_ns;
+  window.T_world_begin = T_world_begin;
+  window.prior = MakeAnchor(T_world_begin, options.anchor_sigma_translation_m,
+                            options.anchor_sigma_rotation_rad);
+  return window;
+}
+
+void PushSegment(SegmentCloud cloud, Deskewing deskewing, Window* window) {
+  const Vector6d velocity =
+      window->size() > 0 ? window->Velocity(window->size() - 1) : window->begin_velocity;
+  Segment segment;
+  segment.cloud = std::move(cloud);
+  const double duration_s = segment.Duration_s();
+  segment.T_world_end = Plus(window->Pose(window->size()), velocity * duration_s);
+  if (window->size() == 0) segment.motion = BeginVelocity(velocity, duration_s);
+  if (deskewing == Deskewing::kPredicted) DeskewToEnd(velocity * duration_s, &segment.cloud);
+  window->segments.push_back(std::move(segment));
+}
+
+}  // namespace trajlo

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/odometry/window/deskew.h"
+#include "core/odometry/window/marginalize.h"
+#include "core/odometry/window/window.h"
+
+namespace trajlo {
+
+/// A window without segments, held at its one control pose by the anchor, at rest.
+Window MakeWindow(std::int64_t begin_ns, const SE3& T_world_begin,
+                  const MarginalizationOptions& options);
+
+/// Adds a segment that begins where the window ends. Its control pose is predicted by the velocity
+/// of the segment before; the first segment of a window is tied to `begin_velocity`.
+void PushSegment(SegmentCloud cloud, Deskewing deskewing, Window* window);
+
+}  // namespace trajlo

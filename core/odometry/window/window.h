@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/window/association.h"
+#include "factors/marginalization_prior.h"
+#include "factors/registration_point.h"
+#include "factors/segment_registration.h"
+#include "factors/smoothness.h"
+#include "factors/white_noise_acceleration.h"
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+/// What ties a segment's velocity: nothing (the prior does), a known velocity, or the velocity of
+/// the segment before it.
+using MotionTerm = std::variant<std::monostate, SmoothnessTerm, WhiteNoiseAccelerationTerm>;
+
+/// One segment of the window, and all that belongs to it.
+struct Segment {
+  SegmentCloud cloud;
+  SE3 T_world_end;                        ///< The control pose at cloud.end_ns.
+  SegmentAssociation association;         ///< Finds the planes of cloud.registration_points.
+  std::vector<RegistrationPoint> points;  ///< Those that have one.
+  MotionTerm motion;
+  /// The registration around the present poses: to first order in the last step.
+  RegistrationNormalEquations registration;
+  unsigned flags = 0;  ///< WindowFlag bits of the window in which this segment was the newest.
+
+  double Duration_s() const { return 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns); }
+};
+
+/// The sliding window: K segments and their K+1 control poses, and what is left of those before.
+///
+///   E = sum_k registration_k(T_{k-1}, T_k) + sum_k motion_k + prior(T_0, ...)      (paper eq. 7)
+struct Window {
+  std::int64_t begin_ns = 0;
+  SE3 T_world_begin;              ///< The control pose at begin_ns.
+  unsigned begin_flags = 0;       ///< Of the segment that ended there.
+  std::vector<Segment> segments;  ///< Oldest first.
+  MarginalizationPrior prior;
+  RegistrationNoise noise;
+  /// Velocity at the begin of a window that has no segments yet, [rho; theta] per second, body
+  /// frame.
+  Vector6d begin_velocity = Vector6d::Zero();
+  /// False: the last solve was no success, and the poses are predictions.
+  bool is_believed = true;
+
+  int size() const { return static_cast<int>(segments.size()); }
+  /// The K+1 control poses, oldest first.
+  const SE3& Pose(int k) const {
+    return k == 0 ? T_world_begin : segments[Index(k - 1)].T_world_end;
+  }
+  std::vector<SE3> Poses() const {
+    std::vector<SE3> poses = {T_world_begin};
+    for (const Segment& segment : segments) poses.push_back(segment.T_world_end);
+    return poses;
+  }
+  void SetPoses(const std::vector<SE3>& poses) {
+    T_world_begin = poses.front();
+    for (std::size_t k = 0; k < segments.size(); ++k) segments[k].T_world_end = poses[k + 1];
+  }
+  /// The mean twist over segment k, [rho; theta] per second, in the body frame at its begin.
+  Vector6d Velocity(int k) const {
+    return Minus(Pose(k + 1), Pose(k)) / segments[Index(k)].Duration_s();
+  }
+
+ private:
+  static std::size_t Index(int k) { return static_cast<std::size_t>(k); }
+};
+
+}  // namespace trajlo

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+/// The few operations of 3-vectors that moving and registering points needs, for one double or for
+/// four points at a time. (Eigen's own vectorisation is off in this project; see CMakeLists.txt.)
+namespace trajlo::lanes {
+
+/// Four points at a time: GCC and Clang turn this into AVX, or into pairs of SSE2 where that is
+/// all.
+typedef double Lane4 __attribute__((vector_size(32)));
+
+template <typename T>
+inline constexpr int kLanes = 1;
+template <>
+inline constexpr int kLanes<Lane4> = 4;
+
+inline double& At(double& value, int) { return value; }
+inline double& At(Lane4& value, int lane) { return reinterpret_cast<double*>(&value)[lane]; }
+
+template <typename T>
+T Broadcast(double value) {
+  return value - T{};
+}
+
+template <typename T>
+struct Vector3 {
+  T x, y, z;
+  friend Vector3 operator+(const Vector3& a, const Vector3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend Vector3 operator*(const T& s, const Vector3& v) { return {s * v.x, s * v.y, s * v.z}; }
+};
+
+template <typename T>
+Vector3<T> Broadcast3(const Eigen::Vector3d& v) {
+  return {Broadcast<T>(v.x()), Broadcast<T>(v.y()), Broadcast<T>(v.z())};
+}
+
+template <typename T>
+Vector3<T> Cross(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <typename T>
+T Dot(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Rᵀ v.
+template <typename T>
+Vector3<T> RotateInverse(const Eigen::Matrix3d& R, const Vector3<T>& v) {
+  return {R(0, 0) * v.x + R(1, 0) * v.y + R(2, 0) * v.z,
+          R(0, 1) * v.x + R(1, 1) * v.y + R(2, 1) * v.z,
+          R(0, 2) * v.x + R(1, 2) * v.y + R(2, 2) * v.z};
+}
+
+}  // namespace trajlo::lanes

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/condition.h"
+
+#include <gtest/gtest.h>
+
+#include "core/odometry/health/belief.h"
+#include "tests/support/test_window.h"
+
+namespace trajlo {
+namespace {
+
+TEST(WindowCondition, NamesTheDirectionThatNoPlaneHolds) {
+  // A corridor along x: all normals are perpendicular to it.
+  Window window = testing::MakeTestWindow(18);
+  window.SetPoses(std::vector<SE3>(5));
+  for (Segment& segment : window.segments) {
+    for (RegistrationPoint& point : segment.points) {
+      point.normal_world.x() = 0.0;
+      point.normal_world.normalize();
+    }
+    segment.registration = LinearizeSegment(segment.points, SE3(), SE3(), window.noise);
+  }
+  const WindowCondition condition = ConditionOf(window);
+  EXPECT_NEAR(condition.smallest_eigenvalue, 0.0, 1e-9);
+  EXPECT_NEAR(std::abs(condition.weak_direction[0]), 1.0, 1e-6);
+}
+
+TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
+  LostOptions options;
+  options.max_correction_m = 0.5;
+  options.max_correction_rad = 0.2;
+  const SE3 predicted;
+  const auto at = [&](double x_m, double yaw_rad) {
+    Vector6d tau = Vector6d::Zero();
+    tau[0] = x_m;
+    tau[5] = yaw_rad;
+    return IsBelievable(predicted, se3::Exp(tau), options);
+  };
+  EXPECT_TRUE(at(0.4, 0.0));
+  EXPECT_FALSE(at(0.6, 0.0));
+  EXPECT_TRUE(at(0.0, -0.15));
+  EXPECT_FALSE(at(0.0, -0.25));
+}
+
+TEST(Belief, ARevertedWindowForgetsItsRegistration) {
+  Window window = testing::MakeTestWindow(3);
+  const std::vector<SE3> start(5);
+  window.segments[1].registration.H.setIdentity();
+  Revert(start, &window);
+  EXPECT_EQ(window.segments[1].registration.H.norm(), 0.0);
+  EXPECT_EQ(window.Pose(2).t.norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace trajlo

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/loss_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace trajlo {
+namespace {
+
+constexpr std::int64_t kWindow_ns = 30'000'000;
+constexpr double kMaxThreshold_m = 1.5;
+
+WindowStatistics Window(int index, int inliers, unsigned flags = 0) {
+  WindowStatistics window;
+  window.end_ns = index * kWindow_ns;
+  window.points = 100;
+  window.inliers = inliers;
+  window.flags = flags;
+  return window;
+}
+
+TEST(LossWatch, IsNotLostByAShortLackOfInliers) {
+  LossWatch watch({}, kMaxThreshold_m);
+  for (int i = 0; i < 300; ++i) {
+    const bool blind = i % 34 != 0;  // 0.99 s at a time.
+    EXPECT_FALSE(watch.Update(Window(i, blind ? 2 : 90))) << i;
+  }
+}
+
+TEST(LossWatch, IsLostSinceTheInliersWentAway) {
+  LossWatch watch({}, kMaxThreshold_m);
+  for (int i = 0; i < 50; ++i) ASSERT_FALSE(watch.Update(Window(i, 90)));
+  for (int i = 50; i < 84; ++i) ASSERT_FALSE(watch.Update(Window(i, 2))) << i;
+  const auto since_ns = watch.Update(Window(84, 2));
+  ASSERT_TRUE(since_ns);
+  EXPECT_EQ(*since_ns, 50 * kWindow_ns);
+  EXPECT_FALSE(watch.Update(Window(85, 90)));
+}
+
+TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
+  for (const unsigned flag : {kFlagNotConverged, kFlagReverted}) {
+    LossWatch watch({}, kMaxThreshold_m);
+    // Every seventh settles: no unbroken spell, and yet lost after the span.
+    int first_lost = -1;
+    for (int i = 0; i < 200 && first_lost < 0; ++i) {
+      const auto since_ns = watch.Update(Window(i, 95, i % 7 == 6 ? 0u : flag));
+      if (!since_ns) continue;
+      first_lost = i;
+      EXPECT_LE(*since_ns, kWindow_ns);
+    }
+    EXPECT_NEAR(first_lost, 101, 1);
+  }
+}
+
+TEST(LossWatch, AsksForMoreWindowsThatSettleWhilePredictionsFail) {
+  for (const double threshold_m : {0.5, 1.5}) {
+    LossWatch watch({}, kMaxThreshold_m);
+    bool is_lost = false;
+    for (int i = 0; i < 200; ++i) {
+      WindowStatistics window = Window(i, 95, i % 2 == 0 ? 0u : kFlagNotConverged);
+      window.threshold_m = threshold_m;
+      is_lost |= watch.Update(window).has_value();
+    }
+    EXPECT_EQ(is_lost, threshold_m == kMaxThreshold_m);
+  }
+}
+
+TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
+  LossWatch watch({}, kMaxThreshold_m);
+  for (int i = 0; i < 300; ++i) {
+    EXPECT_FALSE(watch.Update(Window(i, 95, i % 2 == 0 ? 0u : kFlagNotConverged)));
+  }
+}
+
+}  // namespace
+}  // namespace trajlo

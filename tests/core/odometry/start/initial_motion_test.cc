@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/start/initial_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "core/odometry/sensing/segmenter.h"
+#include "tests/support/synthetic_world.h"
+
+namespace trajlo {
+namespace {
+
+constexpr double kInterval_s = 0.3;
+
+/// The first interval of a world that moves by a constant twist.
+SegmentCloud FirstInterval(const Vector6d& twist_per_s) {
+  testing::SyntheticWorld world;
+  world.T_world_body = [&](double t) { return se3::Exp(t * twist_per_s); };
+  SegmenterOptions options;
+  options.first_interval_s = kInterval_s;
+  Segmenter segmenter(options);
+  for (int i = 0; i < 5; ++i) segmenter.AddScan(world.Sweep(i));
+  const auto cloud = segmenter.Next();
+  EXPECT_TRUE(cloud);
+  return *cloud;
+}
+
+Vector6d Twist(double forward_m_s, double yaw_rad_s) {
+  Vector6d twist = Vector6d::Zero();
+  twist[0] = forward_m_s;
+  twist[5] = yaw_rad_s;
+  return twist;
+}
+
+InitialMotion Estimate(const SegmentCloud& cloud) {
+  ThreadPool threads(1);
+  return EstimateInitialMotion(cloud, {}, {}, {}, &threads);
+}
+
+TEST(InitialMotion, FindsAConstantTwist) {
+  for (const auto& [forward_m_s, yaw_rad_s] :
+       {std::pair(1.5, 0.0), std::pair(0.0, 0.6), std::pair(1.0, -0.4), std::pair(3.0, 0.3)}) {
+    const Vector6d twist = Twist(forward_m_s, yaw_rad_s);
+    const InitialMotion motion = Estimate(FirstInterval(twist));
+    EXPECT_LT((motion.tau - kInterval_s * twist).head<3>().norm(), 0.05) << forward_m_s;
+    EXPECT_LT((motion.tau - kInterval_s * twist).tail<3>().norm(), 0.01) << yaw_rad_s;
+    EXPECT_GT(motion.agreement, motion.agreement_at_rest);
+  }
+}
+
+TEST(InitialMotion, AtRestIsTakenForRest) {
+  ThreadPool threads(1);
+  const SegmentCloud cloud = FirstInterval(Vector6d::Zero());
+  EXPECT_EQ(MotionOfFirstInterval(cloud, {}, {}, {}, {}, &threads), Vector6d(Vector6d::Zero()));
+}
+
+TEST(InitialMotion, IsNotLookedForWhereItIsSwitchedOff) {
+  ThreadPool threads(1);
+  InitializationOptions options;
+  options.estimate_motion = false;
+  const SegmentCloud cloud = FirstInterval(Twist(2.0, 0.0));
+  EXPECT_EQ(MotionOfFirstInterval(cloud, options, {}, {}, {}, &threads),
+            Vector6d(Vector6d::Zero()));
+  EXPECT_NEAR(MotionOfFirstInterval(cloud, {}, {}, {}, {}, &threads)[0], 0.6, 0.05);
+}
+
+TEST(InitialMotion, DoesNotDependOnThreads) {
+  const SegmentCloud cloud = FirstInterval(Twist(1.0, 0.5));
+  ThreadPool one(1), two(2);
+  EXPECT_EQ(EstimateInitialMotion(cloud, {}, {}, {}, &one).tau,
+            EstimateInitialMotion(cloud, {}, {}, {}, &two).tau);
+}
+
+TEST(InitialMotion, OfNothingIsNothing) {
+  EXPECT_EQ(Estimate(SegmentCloud()).tau, Vector6d(Vector6d::Zero()));
+}
+
+}  // namespace
+}  // namespace trajlo

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/weights/motion_prior.h"
+
+#include <gtest/gtest.h>
+
+#include "core/odometry/solvers/window_solver.h"
+#include "tests/support/test_window.h"
+
+namespace trajlo {
+namespace {
+
+/// A body on a line that is measured once a segment: how well a MotionPrior follows it.
+///
+/// The filter is the exact one for white-noise acceleration of density q (pose and velocity, one
+/// axis), so what the test sees is the prior's choice of q and nothing else.
+struct Line {
+  MotionPrior prior;
+  double dt_s = 0.03;
+  double sigma_m = 0.005;
+  testing::Random random{7};
+  Eigen::Vector2d state = Eigen::Vector2d::Zero();  ///< Position and velocity.
+  Eigen::Matrix2d P = Eigen::Vector2d(1e-6, 1.0).asDiagonal();
+
+  explicit Line(const MotionPriorOptions& options) : prior(options) {}
+
+  /// Takes one measurement; the error of the filtered velocity.
+  double Step(double true_position_m, double true_velocity_m_s) {
+    Eigen::Matrix2d F;
+    F << 1, dt_s, 0, 1;
+    Eigen::Matrix2d Q;
+    Q << dt_s * dt_s * dt_s / 3, dt_s * dt_s / 2, dt_s * dt_s / 2, dt_s;
+    state = F * state;
+    P = F * P * F.transpose() + prior.density()[0] * Q;
+    const double S = P(0, 0) + sigma_m * sigma_m;
+    const Eigen::Vector2d K = P.col(0) / S;
+    const double nu = true_position_m + random.Gaussian(sigma_m) - state[0];
+    state += K * nu;
+    Innovation innovation;
+    innovation.correction.setZero();
+    innovation.expected_variance.setZero();
+    innovation.gain.setZero();
+    innovation.correction[0] = K[0] * nu;
+    innovation.expected_variance[0] = K[0] * P(0, 0);
+    innovation.gain[0] = K[0];
+    P -= K * P.row(0);
+    prior.Learn(innovation, dt_s);
+    return state[1] - true_velocity_m_s;
+  }
+};
+
+TEST(MotionPrior, FallsToItsFloorAtRest) {
+  Line line({});
+  for (int i = 0; i < 200; ++i) line.Step(0.0, 0.0);
+  EXPECT_DOUBLE_EQ(line.prior.density()[0], MotionPriorOptions().min_translation_m2_s3);
+}
+
+/// The car that the paper's prior loses: 3 m/s² for ten seconds, after ten seconds of rest.
+TEST(MotionPrior, FollowsABodyThatKeepsAccelerating) {
+  Line line({});
+  double worst = 0.0;
+  for (int i = 0; i < 666; ++i) {
+    const double t = std::max(0.0, 0.03 * i - 10.0);
+    const double error = line.Step(1.5 * t * t, 3.0 * t);
+    if (t > 1.0) worst = std::max(worst, std::abs(error));
+  }
+  EXPECT_LT(worst, 0.6);
+  EXPECT_GT(line.prior.density()[0], MotionPriorOptions().min_translation_m2_s3);
+}
+
+TEST(MotionPrior, IsLooseWithinAFewSegmentsOfAJerk) {
+  Line line({});
+  for (int i = 0; i < 100; ++i) line.Step(0.0, 0.0);
+  const double calm = line.prior.density()[0];
+  for (int i = 1; i <= 5; ++i) {
+    const double t = 0.03 * i;
+    line.Step(20.0 * t * t, 40.0 * t);
+  }
+  EXPECT_GT(line.prior.density()[0], 10.0 * calm);
+}
+
+/// Where the acceleration is white, the density is found whatever it starts with.
+TEST(MotionPrior, FindsTheDensityOfWhiteAcceleration) {
+  for (const double start : {0.3, 300.0}) {
+    MotionPriorOptions options;
+    options.translation_m2_s3 = start;
+    Line line(options);
+    const double q = 8.0;
+    double position = 0.0, velocity = 0.0, mean_log = 0.0;
+    int counted = 0;
+    for (int i = 0; i < 4000; ++i) {
+      for (int fine = 0; fine < 10; ++fine) {
+        position += 0.003 * velocity;
+        velocity += line.random.Gaussian(std::sqrt(q * 0.003));
+      }
+      line.Step(position, velocity);
+      if (i < 200) continue;
+      mean_log += std::log(line.prior.density()[0]);
+      ++counted;
+    }
+    const double found = std::exp(mean_log / counted);
+    EXPECT_GT(found, q / 4.0) << start;
+    EXPECT_LT(found, q * 4.0) << start;
+  }
+}
+
+TEST(MotionPrior, LearnsNothingWhereThePointsTellNothing) {
+  MotionPrior prior({});
+  const Vector6d before = prior.density();
+  Innovation innovation;
+  innovation.correction = Vector6d::Constant(0.1);
+  innovation.expected_variance = Vector6d::Zero();
+  innovation.gain = Vector6d::Zero();
+  for (int i = 0; i < 10; ++i) prior.Learn(innovation, 0.03);
+  EXPECT_EQ(prior.density(), before);
+}
+
+TEST(MotionPrior, StaysAsItIsWithoutSelfTuning) {
+  MotionPriorOptions options;
+  options.self_tuning = false;
+  Line line(options);
+  for (int i = 0; i < 50; ++i) line.Step(0.001 * i * i, 0.0);
+  EXPECT_EQ(line.prior.density()[0], options.translation_m2_s3);
+}
+
+TEST(MotionPrior, ThePapersPseudoVelocityIsTheVelocityOfTheSegmentBefore) {
+  MotionPriorOptions options;
+  options.kind = MotionPriorKind::kPseudoVelocity;
+  Window window = testing::MakeTestWindow(4);
+  MotionPrior(options).Apply(&window);
+  for (int k = 1; k < 4; ++k) {
+    const auto& term =
+        std::get<SmoothnessTerm>(window.segments[static_cast<std::size_t>(k)].motion);
+    EXPECT_LT((term.tau_expected - 0.03 * window.Velocity(k - 1)).norm(), 1e-12);
+    // sigma² = q (2/3) dt³
+    EXPECT_NEAR(term.sqrt_information[0], 1.0 / std::sqrt(0.5 * 2.0 / 3.0 * 2.7e-5), 1e-6);
+  }
+}
+
+/// What is expected of a correction is what the window's own covariances say.
+TEST(Innovation, IsLargeWhereThePointsMovedThePoseAndNearZeroWhereThereAreNone) {
+  Window window = testing::MakeTestWindow(9);
+  ThreadPool threads(1);
+  SolverOptions options;
+  options.iterations_per_round = 20;
+  MakeWindowSolver(options, &threads)->Solve(&window);
+  Vector6d moved;
+  moved << 0.1, 0, 0, 0, 0, 0.02;
+  const SE3 predicted = Plus(window.Poses().back(), -moved);
+  const Innovation innovation = MeasureInnovation(window, predicted);
+  EXPECT_LT((innovation.correction - moved).norm(), 1e-9);
+  EXPECT_GT(innovation.gain.minCoeff(), 0.5);
+  EXPECT_LT(innovation.gain.maxCoeff(), 1.0);
+  window.segments.back().points.clear();
+  MakeWindowSolver(options, &threads)->Solve(&window);
+  EXPECT_LT(MeasureInnovation(window, predicted).gain.maxCoeff(), 1e-9);
+}
+
+}  // namespace
+}  // namespace trajlo
