@@ -4,7 +4,6 @@ from trajlo_batch import results, table_formats, tables
 from trajlo_batch.places import ROOT
 from trajlo_batch.published import read_published
 from trajlo_report import page
-from trajlo_report import theme as themes
 from trajlo_report.files import write_atomically
 
 # What the page shows of a run's figures, in this order.
@@ -67,7 +66,7 @@ def summary(rows):
     return ", ".join(f"{count} {words[result]}" for result, count in counts.items())
 
 
-def write_report(plan, theme_name="light"):
+def write_report(plan):
     """Writes results.csv, tables and report.html below the batch's folder; returns the rows."""
     output, suite = plan.places.output, plan.suite
     if not plan.runs:
@@ -76,12 +75,11 @@ def write_report(plan, theme_name="light"):
     write_atomically(output / "results.csv", results.to_csv(rows))
     found = make_tables(suite, rows)
     write_tables(output, found)
-    theme = themes.THEMES[theme_name]
     programs = [(name, f"{program['version']} ({program['digest']})")
                 for name, program in plan.programs.items()]
     ended = [run_entry(plan, row) for row in rows if row["result"] != results.UNFINISHED]
     text = page.render(
-        "batch.html", theme, title=suite.title, suite=suite, summary=summary(rows),
+        "batch.html", title=suite.title, suite=suite, summary=summary(rows),
         tables=[table for _, table in found], count=len(rows), runs=ended, anchor=anchor,
         heading=table_formats.heading, shown=table_formats.shown, good=tables.GOOD,
         missing=plan.missing, programs=programs)

@@ -8,7 +8,6 @@ import sys
 
 from trajlo_batch.places import ROOT, Places
 from trajlo_batch.yaml_lines import SuiteError
-from trajlo_report import theme as themes
 
 
 class Parser(argparse.ArgumentParser):
@@ -49,7 +48,6 @@ def add_work_arguments(parser, run_name):
                         help="keep runs that another build of the programs has done")
     parser.add_argument("--drop-recordings", action="store_true",
                         help="delete each simulated recording as soon as its runs are done")
-    parser.add_argument("--theme", choices=themes.THEMES, default="light")
     parser.add_argument("--slurm", action="store_true", help="submit the jobs with sbatch")
     parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for it")
 

@@ -195,7 +195,7 @@ def evaluate(job_file):
     job, folder = read_json_if(job_file), job_file.parent
     output = folder / "evaluation"
     trajectory = folder / "result" / "trajectory.tum"
-    status = {"exit_code": None, "reason": "", "command": [], "theme": job["theme"]}
+    status = {"exit_code": None, "reason": "", "command": []}
     if output.exists():
         shutil.rmtree(output)
     if not job["has_truth"]:
@@ -222,7 +222,7 @@ def draw(status_file):
     status = read_json_if(status_file)
     (folder / "result").mkdir(exist_ok=True)
     command = [sys.executable, ROOT / "scripts" / "draw_run.py", folder / "result",
-               "--output", folder / "page", "--theme", status["theme"],
+               "--output", folder / "page",
                "--title", f"{folder.name} · {folder.parent.name}"]
     if (folder / "evaluation" / "evaluation.json").is_file():
         command += ["--evaluation", folder / "evaluation"]

@@ -8,7 +8,6 @@ from trajlo_batch.batch_report import summary
 from trajlo_experiment import analysis, figures, figures_tradeoff, table
 from trajlo_experiment.findings import Findings, level_text
 from trajlo_report import page
-from trajlo_report import theme as themes
 from trajlo_report.files import write_atomically
 
 BEST = 12  # settings of the table
@@ -98,7 +97,7 @@ def design_text(study):
     return f"{text}, {design.samples} samples, seed {design.seed}" if design.samples else text
 
 
-def write_report(plan, theme_name="light"):
+def write_report(plan):
     """Writes results.csv, figures and report.html into the output folder; returns the rows."""
     output, study = plan.places.output, plan.suite
     if not plan.runs:
@@ -106,13 +105,13 @@ def write_report(plan, theme_name="light"):
     rows = table.collect(plan)
     output.mkdir(parents=True, exist_ok=True)
     write_atomically(output / "results.csv", results.to_csv(rows))
-    findings, theme = Findings(study, rows), themes.THEMES[theme_name]
-    drawn = figures.draw_all(findings, theme, output / "figures") if findings.rows else []
+    findings = Findings(study, rows)
+    drawn = figures.draw_all(findings, output / "figures") if findings.rows else []
     programs = [(name, f"{program['version']} ({program['digest']})")
                 for name, program in plan.programs.items()]
     shown = [name for name in RUN_COLUMNS if any(row.get(name) is not None for row in rows)]
     text = page.render(
-        "experiment.html", theme, title=study.title, study=study, summary=summary(rows),
+        "experiment.html", title=study.title, study=study, summary=summary(rows),
         count=len(rows), design=design_text(study), recordings=len(study.base_sequences),
         findings=findings, best=best_settings(findings), front=list(front_lines(findings)),
         failures=failure_lines(rows), seeds_note=seeds_note(findings), figures=drawn,

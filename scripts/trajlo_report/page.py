@@ -7,6 +7,8 @@ import pathlib
 import jinja2
 import PIL.Image
 
+from trajlo_report import theme
+
 TYPES = {".svg": "image/svg+xml", ".png": "image/png"}
 
 
@@ -53,7 +55,7 @@ def flatten(tree, prefix=""):
     return rows
 
 
-def render(template, theme, **values):
+def render(template, **values):
     """The text of templates/<template> with `values` filled in."""
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("trajlo_report"), autoescape=True, trim_blocks=True,

@@ -12,7 +12,7 @@ from trajlo_experiment.figures_parallel import height_on_axis
 from trajlo_experiment.figures_tornado import draw_tornado, swings
 from trajlo_experiment.figures_tradeoff import tradeoff
 from trajlo_experiment.findings import Findings
-from trajlo_report import theme as themes
+from trajlo_report import theme
 
 SEQUENCES = """
 sequences:
@@ -61,7 +61,7 @@ class FiguresTest(PretendedTest):
         batch = self.batch(text)
         if finish:
             self.finish(batch, error_of, lambda levels: 1.0 + levels.get("a.b", 1))
-        themes.apply(themes.LIGHT)
+        theme.apply(.LIGHT)
         return Findings(batch.suite, table.collect(batch))
 
     def test_a_cell_is_the_median_over_its_seeds_in_centimetres(self):
@@ -100,7 +100,7 @@ class FiguresTest(PretendedTest):
 
     def test_a_tornado_has_the_widest_swing_on_top(self):
         findings = self.findings(ONE_AT_A_TIME)
-        axes, = draw_tornado(findings, themes.LIGHT).axes
+        axes, = draw_tornado(findings).axes
         labels = [label.get_text() for label in axes.get_yticklabels()]
         self.assertEqual(labels, ["b", "rules: theirs", "sigma [m]"])
 
@@ -126,7 +126,7 @@ class FiguresTest(PretendedTest):
 
     def test_where_nothing_failed_there_is_no_figure_of_failures(self):
         findings = self.findings(GRID, lambda *_: 0.1)
-        self.assertIsNone(figures_sensitivity.draw_failures(findings, themes.LIGHT))
+        self.assertIsNone(figures_sensitivity.draw_failures(findings))
 
     def report(self, text, error_of=bowl):
         batch = self.batch(text)
