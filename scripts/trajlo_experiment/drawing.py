@@ -6,6 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator, NullLocator
 
 from trajlo_experiment.factors import LOG
+from trajlo_report import theme
 
 MARKERS = "D*sP^v"  # of marked settings
 SHAPES = "os^vDP"   # of scenarios

@@ -12,7 +12,7 @@ from trajlo_experiment import analysis
 from trajlo_experiment.drawing import below, mark_handles, mark_style, plain_log, soften
 from trajlo_experiment.factors import LOG
 from trajlo_experiment.findings import level_text, place_among
-from trajlo_report import theme
+from trajlo_report import names, theme
 
 ALL = "all scenarios"
 WORST = 10.0  # cells this many times worse than the best look alike
@@ -126,7 +126,8 @@ def draw_heat_map(findings, across, upwards, rows_factor):
             marked += draw_marks(axes, findings, across, upwards, columns, lines, rows_factor,
                                  level)
             unit = "× best" if title == ALL and several else findings.unit
-            finish_panel(axes, f"{title} [{unit}]" if unit else title, index, rows_factor)
+            shown = names.title(title)
+            finish_panel(axes, f"{shown} [{unit}]" if unit else shown, index, rows_factor)
     label_axes(grid, across, upwards, columns, lines, rows_factor, levels)
     for axes in grid.flat[len(titles) * len(levels):]:
         axes.set_axis_off()

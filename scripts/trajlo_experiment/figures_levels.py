@@ -8,7 +8,7 @@ from matplotlib.patheffects import withStroke
 from trajlo_experiment.drawing import SHAPES, below, open_frame, plain_log
 from trajlo_experiment.figures_sensitivity import quartiles
 from trajlo_experiment.figures_tradeoff import COST, COST_LABEL
-from trajlo_report import theme
+from trajlo_report import names, theme
 
 
 def draw_quartiles(axes, findings, bins, values_of):
@@ -31,7 +31,7 @@ def draw_quartiles(axes, findings, bins, values_of):
                 axes.text(1.0, at, f"× {failed} of {len(values)}", fontsize=5.5, va="center",
                           ha="right", color=look["color"], transform=axes.get_yaxis_transform(),
                           path_effects=[withStroke(linewidth=2, foreground=theme.PANEL)])
-        axes.plot([], [], ms=3.5, ls="", label=group, **look)
+        axes.plot([], [], ms=3.5, ls="", label=names.title(group), **look)
     if finite and min(finite) > 0:
         span = max(math.log10(max(finite) / min(finite)), 0.3)
         axes.set_xscale("log")

@@ -12,7 +12,7 @@ from trajlo_experiment.drawing import (SHAPES, below, error_axis, factor_axis, m
                                        mark_style, open_frame)
 from trajlo_experiment.experiment import CENTER
 from trajlo_experiment.factors import is_number
-from trajlo_report import theme
+from trajlo_report import names, theme
 
 PER_LINE = 3
 
@@ -108,7 +108,7 @@ def draw_sensitivity(findings):
 
 
 def scenario_handles(findings):
-    handles = [Line2D([], [], marker="o", ms=3, label=group, **theme.method_style(index))
+    handles = [Line2D([], [], marker="o", ms=3, label=names.title(group), **theme.method_style(index))
                for index, group in enumerate(findings.groups)]
     if findings.failures:
         handles.append(Line2D([], [], ls="", marker="x", ms=4, mew=1.0, color=theme.TEXT,
@@ -130,7 +130,8 @@ def draw_failures(findings):
             failed = [math.isinf(error) for error in findings.errors(item.rows)]
             rate, (low, high) = np.mean(failed), analysis.wilson(sum(failed), len(failed))
             axes.bar(place, 100 * rate, 0.62, color=theme.GRID)
-            axes.plot([place, place], [100 * low, 100 * high], color=theme.TEXT, lw=0.8)
+            if len(failed) > 1:
+                axes.plot([place, place], [100 * low, 100 * high], color=theme.TEXT, lw=0.8)
             for index, group in enumerate(findings.groups):
                 own = [math.isinf(error) for error in findings.errors(item.rows, group)]
                 at = place + (index - (len(findings.groups) - 1) / 2) * 0.13
@@ -147,7 +148,7 @@ def draw_failures(findings):
         open_frame(axes)
     for axes in grid[::per_line]:
         axes.set_ylabel("failed runs [%]")
-    handles = [Line2D([], [], ls="", marker=SHAPES[index % 6], ms=4, label=group,
+    handles = [Line2D([], [], ls="", marker=SHAPES[index % 6], ms=4, label=names.title(group),
                       color=theme.method_style(index)["color"])
                for index, group in enumerate(findings.groups)]
     handles += [Patch(color=theme.GRID, label="all scenarios"),

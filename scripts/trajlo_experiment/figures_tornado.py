@@ -56,14 +56,15 @@ def draw_tornado(findings):
     open_frame(axes)
     below(figure, [plt.Rectangle((0, 0), 1, 1, color=theme.METHODS[2], label="better"),
                    plt.Rectangle((0, 0), 1, 1, color=theme.METHODS[1], label="worse"),
-                   Line2D([], [], color=theme.TEXT, lw=0.8, label="95 % over seeds"),
+                   *([Line2D([], [], color=theme.TEXT, lw=0.8, label="95 % over seeds")]
+                     if findings.has_intervals else []),
                    *([Line2D([], [], ls="", marker="x", color=theme.END, label="runs that failed")]
                      if findings.failures else [])])
     return figure
 
 
-def draw_swing(axes, place, ends, limits):
-    finite = [(text, ranked) for text, ranked in ends if math.isfinite(ranked.score)]
+def draw_swing(axes, place, levels, limits):
+    finite = [(text, ranked) for text, ranked in levels if math.isfinite(ranked.score)]
     best = min(finite, key=lambda item: item[1].score, default=None)
     worst = max(finite, key=lambda item: item[1].score, default=None)
     # Where both ends are on one side, the farther one is the swing.
@@ -75,13 +76,13 @@ def draw_swing(axes, place, ends, limits):
                   color=theme.METHODS[2] if better else theme.METHODS[1], alpha=0.85)
         if math.isfinite(ranked.high):
             axes.plot([ranked.low, ranked.high], [place, place], color=theme.TEXT, lw=0.8)
-        edge = min(ranked.low, ranked.score) if better else max(
-            ranked.score, ranked.high if math.isfinite(ranked.high) else 0)
+        ends = [value for value in (ranked.score, ranked.low, ranked.high) if math.isfinite(value)]
+        edge = min(ends) if better else max(ends)
         axes.annotate(text, (edge, place), textcoords="offset points",
                       xytext=(-3 if better else 3, 0), ha="right" if better else "left",
                       va="center", fontsize=6)
     failed = [f"{text} ({ranked.failed})" if text else str(ranked.failed)
-              for text, ranked in ends if ranked.failed]
+              for text, ranked in levels if ranked.failed]
     if failed:
         axes.annotate("× " + ", ".join(failed), (limits[1], place), ha="right", va="center",
                       fontsize=6, color=theme.END)

@@ -9,8 +9,9 @@ from trajlo_experiment import analysis
 from trajlo_experiment.drawing import (below, error_axis, mark_handles, mark_style, open_frame,
                                        plain_log)
 from trajlo_experiment.figures_sensitivity import panels
+from trajlo_report import names, theme
 
-COST, COST_LABEL = "cpu_ms_per_data_second", "CPU time per second of data [ms]"
+COST, COST_LABEL = "cpu_ms_per_data_second", "processor time [ms per s of data]"
 
 
 def tradeoff(findings, group):
@@ -19,12 +20,13 @@ def tradeoff(findings, group):
     for row in findings.rows:
         if row["group"] == group:
             points.setdefault(row["point"], []).append(row)
-    names = list(points)
-    costs = [analysis.median([row[COST] for row in points[name] if row[COST]]) for name in names]
-    errors = [analysis.median(findings.errors(points[name])) for name in names]
-    usable = [i for i in range(len(names)) if math.isfinite(costs[i]) and math.isfinite(errors[i])]
+    settings = list(points)
+    costs = [analysis.median([row[COST] for row in points[name] if row[COST]])
+             for name in settings]
+    errors = [analysis.median(findings.errors(points[name])) for name in settings]
+    usable = [i for i in range(len(settings)) if math.isfinite(costs[i]) and math.isfinite(errors[i])]
     front = analysis.pareto([costs[i] for i in usable], [errors[i] for i in usable])
-    return names, costs, errors, [usable[i] for i in front]
+    return settings, costs, errors, [usable[i] for i in front]
 
 
 def draw_pareto(findings):
@@ -33,9 +35,9 @@ def draw_pareto(findings):
     if not any(front for *_, front in found):
         return None
     figure, grid = panels(len(findings.groups), 2.4)
-    for axes, group, (names, costs, errors, front) in zip(grid, findings.groups, found):
-        draw_front(axes, findings, names, costs, errors, front)
-        axes.set_title(group)
+    for axes, group, (settings, costs, errors, front) in zip(grid, findings.groups, found):
+        draw_front(axes, findings, settings, costs, errors, front)
+        axes.set_title(names.title(group))
         axes.set_xlabel(COST_LABEL)
     for axes in grid[::3]:
         axes.set_ylabel(findings.label)
@@ -49,7 +51,7 @@ def draw_pareto(findings):
     return figure
 
 
-def draw_front(axes, findings, names, costs, errors, front):
+def draw_front(axes, findings, settings, costs, errors, front):
     costs, errors = np.array(costs), np.array(errors)
     good = np.isfinite(costs) & np.isfinite(errors)
     axes.plot(costs[good], errors[good], "o", ms=2.6, mew=0, color=theme.STAGES["segment"],
@@ -66,7 +68,7 @@ def draw_front(axes, findings, names, costs, errors, front):
                       xytext=(-3, -6), ha="right", va="center", fontsize=6,
                       color=theme.METHODS[0]).set_in_layout(False)
     for name, row in findings.marks.items():
-        index = names.index(row["point"]) if row["point"] in names else None
+        index = settings.index(row["point"]) if row["point"] in settings else None
         if index is not None and good[index]:
             axes.plot(costs[index], errors[index], zorder=5,
                       **mark_style(findings, name))

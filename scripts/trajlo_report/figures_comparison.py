@@ -3,6 +3,7 @@
 import numpy as np
 
 from trajlo_report import theme
+from trajlo_report.comparison_words import changes_energy
 
 SMALLEST_M = 1e-16  # solutions that are equal are drawn here
 FAST = 3.0          # bars of stages show variants up to so many times the yardstick's time
@@ -12,11 +13,6 @@ def rows_of(table, variant):
     """The columns of one variant."""
     mask = np.array([name == variant for name in table["variant"]])
     return {key: np.asarray(values)[mask] for key, values in table.items() if key != "variant"}
-
-
-def of_one_energy(variants):
-    """Kernels change the energy itself: its costs and distances do not compare."""
-    return [item for item in variants if "kernel" not in item["set"]]
 
 
 def excess_costs(iterations, variant, steps):
@@ -37,15 +33,41 @@ def legend_below(axes):
     axes.legend(ncol=3, fontsize=5, loc="upper center", bbox_to_anchor=(0.5, -0.22))
 
 
+def cost_curves(iterations, variants, steps=12):
+    """(index, variant, curve) of those that can be drawn: the same energy, and something to lose."""
+    curves = []
+    for index, item in enumerate(variants):
+        curve = excess_costs(iterations, item["name"], steps)
+        curve = np.where(curve > 0, curve, np.nan)
+        if not changes_energy(item) and np.isfinite(curve).any():
+            curves.append((index, item, curve))
+    return curves
+
+
+def without_curve(iterations, variants):
+    """What the figure of costs leaves out, and why."""
+    shown = {item["name"] for _, item, _ in cost_curves(iterations, variants)}
+    other_energy = [item["name"] for item in variants if changes_energy(item)]
+    settled = [item["name"] for item in variants
+               if item["name"] not in shown and item["name"] not in other_energy]
+    return [(names, why) for names, why in (
+        (other_energy, "their kernels change what is minimised, so that costs do not compare"),
+        (settled, "they are at their lowest cost from the start")) if names]
+
+
+def too_slow(variants):
+    """Those that would make the bars of all others short."""
+    first = variants[0]["lockstep"]["total_ms"]
+    return [item["name"] for item in variants if item["lockstep"]["total_ms"] > FAST * first]
+
+
 def draw_costs(iterations, variants, width_in):
     figure, axes = theme.plt.subplots(figsize=(width_in, 0.95 * width_in),
                                        constrained_layout=True)
-    for index, item in enumerate(variants):
-        curve = excess_costs(iterations, item["name"], 12)
-        curve = np.where(curve > 0, curve, np.nan)
+    for index, item, curve in cost_curves(iterations, variants):
         axes.semilogy(curve, label=item["name"], marker=".", ms=3,
                       **theme.method_style(index))
-    axes.set(xlabel="step", ylabel="cost above the lowest (share)")
+    axes.set(xlabel="step", ylabel="cost above the lowest, as a share of it")
     legend_below(axes)
     return figure
 
@@ -56,7 +78,8 @@ def draw_stages(variants, width_in):
     totals = np.array([item["lockstep"]["total_ms"] for item in variants])
     evaluate = np.array([item["lockstep"]["evaluate_ms"] for item in variants])
     linear = np.array([item["lockstep"]["linear_solve_ms"] for item in variants])
-    fast = totals <= FAST * totals[0]
+    slow = too_slow(variants)
+    fast = np.array([name not in slow for name in names])
     figure, (bars, dots) = theme.plt.subplots(
         1, 2, figsize=(2 * width_in, 0.16 * width_in + 0.17 * len(names)), sharey=False,
         constrained_layout=True)
@@ -69,7 +92,7 @@ def draw_stages(variants, width_in):
         bars.barh(place, values[fast], left=left, color=color, label=label)
         left += values[fast]
     bars.set_yticks(place, [name for name, is_fast in zip(names, fast) if is_fast])
-    bars.set(xlabel="ms a window")
+    bars.set(xlabel="time per window [ms]")
     bars.invert_yaxis()
     bars.legend(fontsize=6, ncol=3, loc="lower left", bbox_to_anchor=(0.0, 1.0))
     dots.plot(totals / totals[0], np.arange(len(names)), "o", color=theme.METHODS[0], ms=4)
@@ -105,7 +128,7 @@ def draw_points(lockstep, variants, width_in):
         color = theme.method_style(index)["color"]
         axes.plot(own["points"], own["total_ms"] / tries, "osv^D*"[index // 6 % 6], color=color,
                   ms=2, label=item["name"])
-    axes.set(yscale="log", xlabel="points in the window", ylabel="ms a step")
+    axes.set(yscale="log", xlabel="points in the window", ylabel="time per step [ms]")
     legend_below(axes)
     return figure
 

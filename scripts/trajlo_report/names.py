@@ -10,6 +10,9 @@ SENSORS = (
     (r"kitti", "KITTI's format"))
 
 
+MARK = " †"  # of a scenario that is degenerate by construction
+
+
 def scenario_title(name):
     """A scenario's name, the sensor after a comma; other names are left as they are."""
     words = name.replace("_", " ")
@@ -23,7 +26,10 @@ def scenario_title(name):
 
 
 def title(name):
-    """A sequence: a scenario, perhaps with the seed that "-seed2" says."""
-    scenario, _, seed = name.partition("-seed")
+    """A sequence: a scenario, perhaps with the seed that "-seed2" says, perhaps with a mark."""
+    plain = name.removesuffix(MARK)
+    scenario, _, seed = plain.partition("-seed")
     known = scenario_title(scenario)
-    return f"{known}, seed {seed}" if seed and known != scenario else scenario_title(name)
+    if known == scenario:
+        return name
+    return (f"{known}, seed {seed}" if seed else known) + name[len(plain):]

@@ -42,15 +42,28 @@ def rotation_matrices(quaternions):
                     axis=1).reshape(-1, 3, 3)
 
 
+def drawable(times, positions, quaternions, missing):
+    """Without poses of an estimate that exploded; `missing` is told of them."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        near = np.linalg.norm(positions - positions[0], axis=1) < view_cloud.FARTHEST_M
+    if not near.any():
+        raise files.ReportError("The trajectory has no pose that can be drawn")
+    if not near.all():
+        missing.append(f"{np.count_nonzero(~near)} poses lie more than {view_cloud.FARTHEST_M / 1000:.0f} km "
+                       "from the start or nowhere, and are not drawn.")
+    return times[near], positions[near], quaternions[near]
+
+
 def load(result, estimates=(), budget=view_cloud.BUDGET):
     """Reads a folder of trajlo_run; of one that was interrupted, what there is. Throws ReportError
     where there is no trajectory."""
     result = pathlib.Path(result)
     if not (result / "trajectory.tum").is_file():
         raise files.ReportError(f"There is no trajectory in {result}")
-    times, positions, quaternions = files.read_poses(result / "trajectory.tum")
+    missing = []
+    times, positions, quaternions = drawable(*files.read_poses(result / "trajectory.tum"), missing)
     estimate = estimate_of(result, estimates)
-    frame, missing = frame_of(estimate), []
+    frame = frame_of(estimate)
     cloud = view_cloud.read_cloud(result, times[0], budget)
     if cloud:
         cloud.points = frame.place(cloud.points)

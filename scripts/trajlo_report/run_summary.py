@@ -21,8 +21,19 @@ class Fact:
     text: str
 
 
+def lost_verdict(result):
+    """When the estimator got lost, counted from the start."""
+    lost, begin = result.get("lost_at_s"), result.get("begin_s")
+    if lost is None or begin is None:
+        return VERDICTS[4]
+    return (f"The estimator got lost {float(lost) - float(begin):.1f} s after the start: do not "
+            "trust poses from there on.")
+
+
 def verdict(run_json):
     ended = run_json.get("exit", {})
+    if ended.get("reason") == "lost":
+        return lost_verdict(run_json.get("result", {}))
     known = VERDICTS.get(ended.get("code"))
     if ended.get("reason") == "running" or not ended:
         known = "The run did not finish; what it had done by then is shown."

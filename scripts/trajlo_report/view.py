@@ -18,7 +18,7 @@ LIBRARY = ("three.min.js", "examples/js/controls/OrbitControls.js",
            "examples/js/lines/LineSegmentsGeometry.js", "examples/js/lines/LineMaterial.js",
            "examples/js/lines/LineSegments2.js")
 OWN = ("arrays.js", "colors.js", "cloud.js", "shading.js", "lines.js", "path.js", "camera.js",
-       "timeline.js", "panel.js", "main.js")
+       "timeline.js", "panel.js", "controls.js", "main.js")
 # Of each the part that is seen well on white; walls full of turbo want softer colours.
 COLOR_MAPS = {"turbo": (0.07, 0.93), "gray": (0.08, 0.85), "viridis": (0, 1), "viridis_r": (0, 1),
               "plasma": (0, 1)}

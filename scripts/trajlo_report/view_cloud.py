@@ -7,6 +7,7 @@ from scipy.spatial import cKDTree
 
 from trajlo_report import files
 
+FARTHEST_M = 1e6  # what is farther is of an estimate that exploded
 BUDGET = 1_000_000  # points; an integrated graphics chip turns so many smoothly
 
 
@@ -29,6 +30,11 @@ def evenly(count, budget):
     return np.arange(count) if count <= budget else np.arange(budget) * count // budget
 
 
+def finite(points):
+    """Which points are somewhere: an estimate that explodes takes them along."""
+    return (np.abs(points) < FARTHEST_M).all(axis=1)
+
+
 def begin_of(path):
     """The time (s) that t_s of view.ply counts from."""
     with path.open("rb") as file:
@@ -47,11 +53,13 @@ def read_scans(path, begin_s, budget):
     if missing:
         raise files.ReportError(f"{path} has no {', '.join(sorted(missing))}")
     points = np.stack([columns[axis] for axis in "xyz"], axis=1)
-    keep = evenly(len(points), budget)
+    usable = np.flatnonzero(finite(points))
+    keep = usable[evenly(len(usable), budget)]
     times = columns["t_s"][keep]
     moments, first = np.unique(times, return_index=True)
     late = begin_of(path) - begin_s
-    return Cloud(points[keep], times + late, columns["intensity"][keep], moments + late,
+    return Cloud(points[keep], times + late, np.nan_to_num(columns["intensity"][keep]),
+                 moments + late,
                  np.append(first, len(keep)))
 
 
@@ -77,7 +85,7 @@ def read_cloud(result, begin_s, budget=BUDGET):
     map_points = np.zeros((0, 3), np.float32)
     if (result / "map.ply").is_file():
         map_points = files.read_ply(result / "map.ply")
-        map_points = map_points[np.isfinite(map_points).all(axis=1)]
+        map_points = map_points[finite(map_points)]
     if (result / "view.ply").is_file():
         scans = read_scans(result / "view.ply", begin_s, budget)
         if len(scans.points):

@@ -5,8 +5,9 @@ import subprocess
 import unittest
 import unittest.mock
 
+import numpy as np
 from evaluation_folder import write_evaluation
-from result_folder import write_result
+from result_folder import BEGIN_S, on_walls, write_ply, write_result
 from support import SCRIPTS, FolderTest
 
 from trajlo_report import (evaluated, figures_errors, figures_evaluation, files, names, page,
@@ -134,9 +135,25 @@ class RunPageTest(FolderTest):
         self.assertIn("There is no map", self.draw())
         self.assertTrue((self.folder / "figures" / "windows.png").is_file())
 
+    def test_an_estimate_that_exploded_does_not_take_the_page_along(self):
+        result = write_result(self.folder)
+        poses = (result / "trajectory.tum").read_text().splitlines()
+        poses += ["1700000011 1e300 2 3 0 0 0 1", "1700000012 nan 2 3 0 0 0 1"]
+        (result / "trajectory.tum").write_text("\n".join(poses) + "\n")
+        points = on_walls(np.random.default_rng(1), 500)
+        points[::7] = np.inf
+        write_ply(result / "view.ply", {
+            **dict(zip("xyz", points.T)), "intensity": np.zeros(500), "t_s": np.zeros(500)},
+            f"comment begin_s {BEGIN_S:.9f}")
+        self.assertIn("2 poses lie more than 1000 km from the start", self.draw())
+
     def test_what_made_a_run_fail_stands_on_top(self):
-        for exit_, said in (({"code": 4, "reason": "lost", "message": "it got lost at 3 s"},
-                             "do not trust poses from there on. It got lost at 3 s."),
+        lost = {"exit": {"code": 4, "reason": "lost", "message": "lost at 1700000003.5 s"},
+                "result": {"begin_s": "1700000000.250", "lost_at_s": "1700000003.500"}}
+        self.assertEqual(run_summary.verdict(lost), "The estimator got lost 3.2 s after the start: "
+                         "do not trust poses from there on.")
+        for exit_, said in (({"code": 4, "reason": "failed", "message": "no memory"},
+                             "do not trust poses from there on. No memory."),
                             ({"code": 0, "reason": "running", "message": ""}, "did not finish"),
                             ({"code": 2, "reason": "input_unreadable", "message": "no file"},
                              "The run failed: input_unreadable. No file.")):

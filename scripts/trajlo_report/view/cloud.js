@@ -188,6 +188,18 @@ class Cloud {
     return { label, unit, colors: this.colorMaps[colors], low, high };
   }
 
+  // A box around all points but the outermost of each axis.
+  mostOf(arrays) {
+    const { corner, step_m } = this.entry;
+    const ends = ['x', 'y', 'z'].map((axis, k) => {
+      const sorted = arrays[`cloud_${axis}`].filter((_, i) => i % 50 === 0).sort();
+      return [0.02, 0.98].map((share) =>
+        corner[k] + step_m * sorted[Math.floor(share * (sorted.length - 1))]);
+    });
+    return new THREE.Box3(new THREE.Vector3(...ends.map((pair) => pair[0])),
+                          new THREE.Vector3(...ends.map((pair) => pair[1])));
+  }
+
   place(i) {
     const { corner, step_m } = this.entry;
     const { cloud_x, cloud_y, cloud_z } = this.arrays;

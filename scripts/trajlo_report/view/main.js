@@ -19,16 +19,16 @@ class View {
     this.viewer = new Viewer(this.canvas, this.boxOfInterest(arrays), () => this.redraw());
     this.addScenery();
     this.settings = { scan: false, seen: false, follow: false, grid: true };
-    this.timeline = new Timeline(root.querySelector('.time'), this.path, (t) => this.moveTo(t));
+    this.timeline = new Timeline(root.querySelector('.time'), this.path,
+      (time, byHand) => this.moveTo(time, byHand));
     this.share = 1;
     this.gl = this.renderer.getContext();
-    this.makePanel();
+    makePanel(this);
     this.canvas.addEventListener('dblclick', (event) => this.turnAround(event));
     new ResizeObserver(() => this.resize()).observe(this.stage);
     this.resize();
     this.viewer.look('3-D');
-    this.timeline.set(0);
-    this.settings.touched = true;  // from here on it is the reader who moves the slider
+    this.timeline.set(0, false);
     requestAnimationFrame((now) => this.tick(now));
   }
 
@@ -49,16 +49,7 @@ class View {
     for (let i = 0; i < this.path.times.length; ++i) {
       box.expandByPoint(at.fromArray(this.path.places, 3 * i));
     }
-    if (!this.cloud) return box.expandByScalar(1);
-    const { corner, step_m } = this.cloud.entry;
-    const bounds = ['x', 'y', 'z'].map((axis, k) => {
-      const sorted = arrays[`cloud_${axis}`].filter((_, i) => i % 50 === 0).sort();
-      const at = (share) => corner[k] + step_m * sorted[Math.floor(share * (sorted.length - 1))];
-      return [at(0.02), at(0.98)];
-    });
-    box.expandByPoint(new THREE.Vector3(...bounds.map((pair) => pair[0])));
-    box.expandByPoint(new THREE.Vector3(...bounds.map((pair) => pair[1])));
-    return box;
+    return this.cloud ? box.union(this.cloud.mostOf(arrays)) : box.expandByScalar(1);
   }
 
   // A grid on the ground, the axes at the origin, and those of the body at the moment.
@@ -80,126 +71,27 @@ class View {
     const unit = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => new THREE.Vector3(...axis));
     const arm = roundDown(Math.max(this.viewer.radius / 8, 0.2));
     this.axes = new AxesCross(this.path.lines, arm, 3, false);
-    this.axes.place(new THREE.Vector3().fromArray(this.page.origin).negate(), unit);
+    this.axes.place(new THREE.Vector3(), unit);
     this.body = new AxesCross(this.path.lines, this.viewer.radius / 25, 4, true);
     this.axisLabels = ['x', 'y', 'z'].map((name) => element('span', {}, name));
     this.labels.append(...this.axisLabels);
   }
 
-  makePanel() {
-    const panel = this.root.querySelector('.panel');
-    panel.open = this.stage.clientWidth > 700;
-    panel.addEventListener('toggle', () => this.resize());
-    panel.append(...this.pointControls(), ...this.pathControls(), ...this.momentControls(),
-      ...this.viewControls());
-    this.updateLegend();
-  }
-
-  pointControls() {
-    if (!this.cloud) return [];
-    const modes = this.cloud.modes();
-    const color = choice('colour', modes, (name) => {
-      this.cloud.setMode(name);
-      this.changed();
-    }, modes.map((name) => POINT_MODES[name].label));
-    const { low, high } = this.page.cloud.height;
-    const top = high + 0.15 * (high - low);
-    const bottom = Math.max(low, this.path.places[2] - 0.5 * (high - low));
-    const heightOf = (value) => (value >= top - 1e-6 ? Infinity : value);
-    const cut = slide('hide above', bottom, top,
-      Math.min(this.page.cloud.ceiling_m === null ? top : this.page.cloud.ceiling_m, top),
-      (value) => (heightOf(value) === Infinity ? 'nothing' : `${value.toFixed(1)} m`),
-      (value) => { this.cloud.setCut(heightOf(value)); this.changed(); });
-    this.cloud.setCut(heightOf(Number(cut.input.value)));
-    const spacing = this.viewer.radius / 400;
-    const size = slide('point size', -1.5, 1.5, 0, (value) => lengthText(spacing * 2 ** value),
-      (value) => { this.cloud.setSize(spacing * 2 ** value); this.redraw(); });
-    this.cloud.setSize(spacing);
-    return [heading('Points'), color.row, cut.row, size.row];
-  }
-
-  pathControls() {
-    const keys = [...this.path.quantities.map((item) => item.key), ''];
-    const color = choice('colour', keys, (key) => {
-      this.path.setQuantity(key);
-      this.changed();
-      this.timeline.draw();
-    }, [...this.path.quantities.map((item) => item.label), 'none']);
-    const rows = [heading('Path'), color.row];
-    const switches = [['truth', this.path.truth], ['flagged stretches', this.path.flagged]];
-    for (const [label, lines] of switches) {
-      if (!lines) continue;
-      rows.push(check(label, true, (on) => { lines.visible = on; this.redraw(); }).row);
-    }
-    return rows;
-  }
-
-  momentControls() {
-    const set = (name) => (on) => {
-      this.settings[name] = on;
-      this.moveTo(this.timeline.time);
-    };
-    const rows = [heading('Moment')];
-    if (this.cloud && this.page.cloud.moments_s.length) {
-      this.scanBox = check('scan in its place', false, set('scan'));
-      rows.push(this.scanBox.row, check('only what was seen by then', false, set('seen')).row);
-    }
-    rows.push(check('follow the sensor', false, set('follow')).row);
-    return rows;
-  }
-
-  viewControls() {
-    const buttons = Object.keys(DIRECTIONS).map((name) => element('button', {
-      textContent: name, onclick: () => { this.viewer.look(name); this.redraw(); } }));
-    const full = element('button', { textContent: 'Full screen', onclick: () => {
-      if (document.fullscreenElement) document.exitFullscreen();
-      else this.root.requestFullscreen();
-    } });
-    const grid = check(`grid of ${lengthText(this.cell)}, axes of ${lengthText(this.axes.length)}`,
-      true, (on) => {
-        this.settings.grid = on;
-        this.grid.visible = on;
-        this.axes.show(on);
-        this.redraw();
-      });
-    return [heading('View'), element('div', { className: 'buttons' }, ...buttons, full), grid.row];
-  }
-
-  updateLegend() {
-    const legend = this.root.querySelector('.legend');
-    legend.textContent = '';
-    if (this.cloud) {
-      const scale = this.cloud.scale();
-      legend.append(bar({ ...scale, label: `points: ${scale.label}` }));
-    }
-    const item = this.path.quantity(this.path.key);
-    if (item) {
-      legend.append(bar({ ...item, label: `path: ${item.label}`,
-                          colors: this.page.colors[item.colors] }));
-    }
-    legend.append(element('div', { className: 'marks' },
-      mark(PLAIN.start, 'start', 'dot'), mark(PLAIN.end, 'end', 'dot'),
-      ...(this.path.truth ? [mark(PLAIN.truth, 'truth')] : []),
-      ...(this.path.flagged ? [mark(PLAIN.flag, `flagged: ${this.path.flagCounts()}`, 'band')] : []),
-      ...(this.cloud && this.cloud.scan.visible ? [mark(PLAIN.scan, 'scan at the moment', 'dot')]
-                                                : [])));
-  }
-
   changed() {
-    this.updateLegend();
+    updateLegend(this);
     this.redraw();
   }
 
-  moveTo(time) {
+  moveTo(time, byHand) {
     const pose = this.path.poseAt(time);
     if (this.settings.follow && this.lastPlace) {
       this.viewer.move(pose.at.clone().sub(this.lastPlace));
     }
     this.lastPlace = pose.at;
-    // Whoever moves the slider wants to see the scan.
-    if (this.settings.touched && this.scanBox && !this.settings.untouchedScan) {
-      this.settings.untouchedScan = true;
-      this.settings.scan = this.scanBox.box.checked = true;
+    // Whoever moves the slider for the first time wants to see the scan.
+    if (byHand && this.scanBox && !this.wasMoved) {
+      this.wasMoved = true;
+      this.settings.scan = this.scanBox.checked = true;
     }
     this.body.place(pose.at, pose.axes);
     if (this.cloud) this.cloud.setTime(time, this.settings.scan, this.settings.seen);
@@ -258,7 +150,8 @@ class View {
     if (!this.dirty) return;
     this.draw(moving ? this.share : 1);
     this.dirty = moving && this.share < 1;
-    this.drawnSince = moving ? now : undefined;
+    if (!moving) return;
+    this.drawnSince = now;
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl.flush();
   }
@@ -267,10 +160,10 @@ class View {
   isDrawn(now) {
     if (this.gl.clientWaitSync(this.fence, 0, 0) === this.gl.TIMEOUT_EXPIRED) return false;
     this.gl.deleteSync(this.fence);
-    this.frame_ms = now - this.drawnSince;
+    const took_ms = now - this.drawnSince;
     this.drawnSince = undefined;
-    if (this.frame_ms > 50) this.share = Math.max(0.04, this.share * Math.max(0.5, 40 / this.frame_ms));
-    if (this.frame_ms < 25) this.share = Math.min(1, 1.15 * this.share);
+    if (took_ms > 50) this.share = Math.max(0.04, this.share * Math.max(0.5, 40 / took_ms));
+    if (took_ms < 25) this.share = Math.min(1, 1.15 * this.share);
     return true;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Controls and legend.
+// The parts that controls and legend are made of.
 
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);

@@ -13,7 +13,7 @@ class Timeline {
     this.time = 0;
     this.slider.max = this.duration;
     this.slider.step = this.duration / 2000;
-    this.slider.addEventListener('input', () => this.set(Number(this.slider.value)));
+    this.slider.addEventListener('input', () => this.set(Number(this.slider.value), true));
     this.button.addEventListener('click', () => this.play(!this.playing));
     this.strip.addEventListener('pointerdown', (event) => this.seek(event));
     this.strip.addEventListener('pointermove', (event) => { if (event.buttons) this.seek(event); });
@@ -22,14 +22,15 @@ class Timeline {
   seek(event) {
     const frame = this.strip.getBoundingClientRect();
     const share = (event.clientX - frame.left) / frame.width;
-    this.set(Math.min(Math.max(share, 0), 1) * this.duration);
+    this.set(Math.min(Math.max(share, 0), 1) * this.duration, true);
   }
 
-  set(time) {
+  // `byHand`: the reader wants it.
+  set(time, byHand) {
     this.time = time;
     this.slider.value = time;
     this.draw();
-    this.onChange(time);
+    this.onChange(time, byHand);
   }
 
   play(start) {
@@ -45,7 +46,7 @@ class Timeline {
       if (!this.playing) return;
       const time = this.time + rate * Math.min(now - before, 200) / 1000;
       before = now;
-      this.set(Math.min(time, this.duration));
+      this.set(Math.min(time, this.duration), true);
       if (time >= this.duration) this.play(false); else requestAnimationFrame(step);
     };
     requestAnimationFrame(step);
