@@ -45,7 +45,7 @@ constexpr char kHelp[] = R"(The same windows, and the same recording, by many so
         comparison/iterations.csv        the cost after every step
         comparison/lockstep_summary.csv, free_summary.csv   a line per variant
         comparison/free/VARIANT/         trajectory.tum and windows.csv of each run
-        comparison/report.html           the figures in one page (also as PNG and SVG)
+        comparison/report.html           the figures in one page (also as SVG, PDF and PNG)
   trajlo_compare_solvers --input=recording --output=comparison --truth=truth.tum
       with the errors of the free runs
   trajlo_compare_solvers --input=recording --output=two --only=gauss_newton,ceres --every=1

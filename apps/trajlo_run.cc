@@ -22,6 +22,7 @@ DEFINE_int32(threads, -1, "0 for all cores; the result does not depend on it");
 DEFINE_double(rate, 0.0, "poses per second in trajectory.tum; 0 writes the control poses");
 DEFINE_string(at, "", "one pose per scan: scan-end or scan-mid");
 DEFINE_bool(covariance, false, "write covariance.csv");
+DEFINE_bool(view, true, "write view.ply, a thinned choice of the scans for the 3-D view");
 DEFINE_bool(overwrite, false, "replace an earlier result in the output folder");
 DEFINE_bool(quiet, false, "print warnings and errors only");
 DEFINE_bool(show_config, false, "print the configuration with all options explained, and stop");
@@ -37,6 +38,7 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
       reads recording/*.pcd, *.ply or *.bin (or recording/scans/...) and writes
         result/trajectory.tum   poses of the body: time x y z qx qy qz qw
         result/map.ply          the map at the end
+        result/view.ply         some points of some scans, for the 3-D view that draw_run.py makes
         result/windows.csv      what happened in every window
         result/config.yaml      all options as they were
         result/run.json         counts, times, warnings, how it ended
@@ -63,6 +65,7 @@ More flags:
   --rate=HZ                     trajectory.tum at even times
   --at=scan-end|scan-mid        trajectory.tum with one pose per scan
   --covariance                  covariance.csv beside the trajectory: 6x6 of every control pose
+  --noview                      no view.ply
   --overwrite                   replace an earlier result
   --quiet                       print warnings and errors only
   --version                     versions of this program and of what it stands on
@@ -110,6 +113,7 @@ trajlo::RunRequest RequestFromFlags() {
   trajlo::RequireExtrinsics(request.inputs, request.config);
   request.output = FLAGS_output;
   request.covariance = FLAGS_covariance;
+  request.view = FLAGS_view;
   request.overwrite = FLAGS_overwrite;
   request.quiet = FLAGS_quiet;
   return request;

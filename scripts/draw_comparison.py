@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Draws what trajlo_compare_solvers found: figures for papers, and a page with tables and figures.
 
-  scripts/draw_comparison.py DIR                  writes DIR/report.html, DIR/figures/*.svg, *.png
-  scripts/draw_comparison.py DIR --theme dark     for a dark screen
+  scripts/draw_comparison.py DIR      writes DIR/report.html and, in DIR/figures, each figure as
+                                      SVG, PDF and PNG
 DIR is the output folder of trajlo_compare_solvers. Needs Debian's python3-numpy,
 python3-matplotlib and python3-jinja2.
 """
@@ -11,30 +11,43 @@ import argparse
 import pathlib
 import sys
 
+from trajlo_report import comparison_words as words
 from trajlo_report import figures_comparison as figures
-from trajlo_report import files, page
-from trajlo_report import theme as themes
+from trajlo_report import files, page, theme
 
 
-def draw_all(folder, lockstep, free, theme, width_in):
-    """The figures that the data allow: (name, figure, caption)."""
-    drawn = []
-    if lockstep:
-        table = files.read_columns(folder / "lockstep.csv")
-        iterations = files.read_columns(folder / "iterations.csv")
-        comparable = figures.of_one_energy(lockstep)
-        drawn += [
-            ("cost", figures.draw_costs(iterations, comparable, theme, width_in),
-             "Cost above the window's lowest after each step, median over the windows"),
-            ("stages", figures.draw_stages(lockstep, theme, width_in),
-             "Time of a window by stage, and as a multiple of the first variant's"),
-            ("distances", figures.draw_distances(table, lockstep, theme, width_in),
-             "Share of the windows whose solution is at most so far from the first variant's"),
-            ("points", figures.draw_points(table, lockstep, theme, width_in),
-             "Time of a step against the number of points")]
+def with_notes(caption, left_out):
+    """A reader who misses a variant is told why."""
+    notes = "".join(f" Not shown: {words.listed(names)}; {why}." for names, why in left_out)
+    return f"{caption}.{notes}"
+
+
+def draw_lockstep(folder, lockstep, width_in):
+    """Figures of single windows: (name, figure, caption)."""
+    table = files.read_columns(folder / "lockstep.csv")
+    iterations = files.read_columns(folder / "iterations.csv")
+    first, slow = lockstep[0]["name"], figures.too_slow(lockstep)
+    slow = [(slow, f"they take more than {figures.FAST:.0f} times as long as {first} and are in "
+             "the right panel only")] if slow else []
+    return [
+        ("cost", figures.draw_costs(iterations, lockstep, width_in),
+         with_notes("Cost above the lowest of the window after each step, median over the windows",
+                    figures.without_curve(iterations, lockstep))),
+        ("stages", figures.draw_stages(lockstep, width_in),
+         with_notes(f"Time of a window by stage, and relative to {first}", slow)),
+        ("distances", figures.draw_distances(table, lockstep, width_in),
+         with_notes(f"Share of the windows whose solution is at most so far from that of {first}",
+                    [([first], "the others are compared with it")])),
+        ("points", figures.draw_points(table, lockstep, width_in),
+         with_notes("Time of a step against the number of points; each mark is a window", []))]
+
+
+def draw_all(folder, lockstep, free, width_in):
+    """The figures that the data allow."""
+    drawn = draw_lockstep(folder, lockstep, width_in) if lockstep else []
     if free:
-        drawn.append(("free", figures.draw_free(free, theme, width_in),
-                      "Whole runs: processor time, distance between trajectories, error"))
+        drawn.append(("free", figures.draw_free(free, width_in), with_notes(
+            "Whole runs: processor time, distance between trajectories, error", [])))
     return drawn
 
 
@@ -43,28 +56,29 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("comparison", type=pathlib.Path,
                         help="output folder of trajlo_compare_solvers")
-    parser.add_argument("--theme", choices=themes.THEMES, default="light")
     parser.add_argument("--title", default="Comparison of solvers")
     arguments = parser.parse_args()
-    theme = themes.THEMES[arguments.theme]
     folder = arguments.comparison
     try:
         document = files.read_json(folder / "comparison.json")
     except files.ReportError as error:
         sys.exit(f"draw_comparison.py: {error}")
-    themes.apply(theme)
+    theme.apply()
     lockstep = [item for item in document["variants"] if "lockstep" in item]
     free = [item for item in document["variants"] if "free" in item]
     (folder / "figures").mkdir(exist_ok=True)
     drawn = []
-    for name, figure, caption in draw_all(folder, lockstep, free, theme, themes.COLUMN_IN):
-        paths = themes.save(figure, folder / "figures" / name)
-        drawn.append({"path": paths[1], "caption": caption})
+    for name, figure, caption in draw_all(folder, lockstep, free, theme.COLUMN_IN):
+        width = int(140 * figure.get_size_inches()[0])
+        paths = theme.save(figure, folder / "figures" / name)
+        drawn.append({"path": paths[0], "caption": caption, "width": width})
     report = folder / "report.html"
     files.write_atomically(report, page.render(
-        "comparison.html", theme, title=arguments.title, document=document, lockstep=lockstep,
+        "comparison.html", title=arguments.title, document=document, lockstep=lockstep,
         free=free, figures=drawn, versions=page.flatten(document["versions"]),
-        config=(folder / "config.yaml").read_text()))
+        conclusions=words.of_windows(lockstep) + words.of_runs(free),
+        leaves_s={item["name"]: words.since_begin(folder, item) for item in free},
+        length=words.small_length, config=(folder / "config.yaml").read_text()))
     print(f"{report}: {len(document['variants'])} variants, {len(drawn)} figures")
 
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Draws what trajlo_evaluate found: figures for papers, and a page with figures and tables.
 
-  scripts/draw_evaluation.py DIR                  writes DIR/report.html, DIR/figures/*.svg, *.png
+  scripts/draw_evaluation.py DIR                  writes DIR/report.html and, in
+                                                  DIR/figures, each figure as SVG, PDF and PNG
   scripts/draw_evaluation.py DIR --width page     figures as wide as both columns of a paper
-  scripts/draw_evaluation.py DIR --theme dark     for a dark screen
 DIR is the output folder of trajlo_evaluate. Needs Debian's python3-numpy, python3-matplotlib and
 python3-jinja2.
 """
@@ -13,33 +13,31 @@ import pathlib
 import sys
 
 from trajlo_report import evaluated, figures_evaluation, files, page
-from trajlo_report import theme as themes
+from trajlo_report import theme
 
-WIDTHS = {"column": themes.COLUMN_IN, "page": themes.PAGE_IN}
+WIDTHS = {"column": theme.COLUMN_IN, "page": theme.PAGE_IN}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("evaluation", type=pathlib.Path, help="output folder of trajlo_evaluate")
-    parser.add_argument("--theme", choices=themes.THEMES, default="light")
     parser.add_argument("--width", choices=WIDTHS, default="column", help="width of the figures")
     parser.add_argument("--output", type=pathlib.Path, help="the folder to write, in place of DIR")
     parser.add_argument("--title", default="Evaluation of trajectories")
     arguments = parser.parse_args()
-    theme = themes.THEMES[arguments.theme]
     output = arguments.output or arguments.evaluation
     try:
         document, estimates = files.read_evaluation(arguments.evaluation)
     except files.ReportError as error:
         sys.exit(f"draw_evaluation.py: {error}")
 
-    drawn = figures_evaluation.draw_all(estimates, theme, output / "figures", ("svg", "png"), 250,
-                                        WIDTHS[arguments.width])
+    drawn = figures_evaluation.draw_all(estimates, output / "figures",
+                                        width_in=WIDTHS[arguments.width])
     shown = {estimate.name for _, estimate in evaluated.drawable(estimates)}
     truth = document.get("truth", "")
     text = page.render(
-        "evaluation.html", theme, title=arguments.title, estimates=estimates, figures=drawn,
+        "evaluation.html", title=arguments.title, estimates=estimates, figures=drawn,
         truth=truth.get("file", truth) if isinstance(truth, dict) else truth,
         undrawn=[item.name for item in estimates if item.name not in shown],
         settings=page.flatten(document.get("settings", {})),

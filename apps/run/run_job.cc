@@ -21,7 +21,9 @@
 #include "core/report/resource_usage.h"
 #include "core/report/result_folder.h"
 #include "core/report/run_json.h"
+#include "core/report/scan_sampler.h"
 #include "core/report/summary_table.h"
+#include "core/report/view_ply.h"
 #include "core/report/window_csv.h"
 
 namespace trajlo {
@@ -59,6 +61,7 @@ class Run {
       summary_->windows.Add(window);
       inlier_share_ = window.InlierShare();
     });
+    if (request.view) view_.emplace(request.config.odometry.segmenter);
     if (!request.covariance) return;
     covariance_.emplace(folder.covariance(), IfExists::kReplace);
     odometry_.OnPose([this](const ControlPose& pose, const Matrix6d& covariance) {
@@ -75,6 +78,7 @@ class Run {
     for (std::size_t count = 0; !stop && recording_->Next(&scan); ++count) {
       if (count == 0) first_ns = scan.stamp_ns;
       sampler_.NoteScan(scan);
+      if (view_) view_->Note(scan);
       Timed(scan.stamp_ns, [&] { odometry_.AddScan(scan); });
       sampler_.Advance(odometry_.trajectory(), Append());
       bar.Update({count + 1, recording_->size(),
@@ -97,6 +101,7 @@ class Run {
     });
     WritePointCloud(folder_.map(), points, CloudFields::kXyz, IfExists::kReplace);
     summary_->map_points = points.size();
+    if (view_) WriteViewPly(folder_.view(), view_->Deskew(odometry_.trajectory()));
   }
 
   /// Fills in what is known by now.
@@ -150,6 +155,7 @@ class Run {
   TumWriter trajectory_;
   WindowCsvWriter windows_;
   std::optional<CovarianceCsvWriter> covariance_;
+  std::optional<ScanSampler> view_;
   Odometry odometry_;
   ProcessingTime processing_;
   double inlier_share_ = 0.0;

@@ -18,6 +18,7 @@ struct RunRequest {
   RunConfig config;
   SamplingOptions sampling;
   bool covariance = false;  ///< Write covariance.csv, too.
+  bool view = true;         ///< Write view.ply, too.
   bool overwrite = false;
   bool quiet = false;  ///< Only warnings and errors are printed.
   std::vector<std::string> command_line;

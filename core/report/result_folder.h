@@ -14,6 +14,8 @@ class ResultFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path trajectory() const { return path_ / "trajectory.tum"; }
   std::filesystem::path map() const { return path_ / "map.ply"; }
+  /// A thinned choice of the scans, for pictures.
+  std::filesystem::path view() const { return path_ / "view.ply"; }
   std::filesystem::path windows() const { return path_ / "windows.csv"; }
   /// Only if it was asked for.
   std::filesystem::path covariance() const { return path_ / "covariance.csv"; }

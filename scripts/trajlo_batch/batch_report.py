@@ -4,15 +4,16 @@ from trajlo_batch import results, table_formats, tables
 from trajlo_batch.places import ROOT
 from trajlo_batch.published import read_published
 from trajlo_report import page
-from trajlo_report import theme as themes
 from trajlo_report.files import write_atomically
 
 # What the page shows of a run's figures, in this order.
-FIGURES = {"trajectory": "truth and estimate in three planes", "over_time": "over time",
+FIGURES = {"map": "map and path from above, from the front and from the side",
+           "trajectory": "truth and estimate in three planes", "over_time": "over time",
            "error_on_path": "translation error along the path",
            "error_components": "error of the position by component",
-           "kitti_lengths": "relative errors by length", "map": "map and trajectory from above",
-           "windows": "position, inliers, weakest direction, milliseconds per stage"}
+           "kitti_lengths": "relative errors by length",
+           "windows": "what the estimator says of itself, over time"}
+WIDE, WIDE_FIGURES = 760, ("map", "windows")
 
 
 def make_tables(suite, rows):
@@ -35,7 +36,7 @@ def write_tables(output, found):
 
 def figures_of(folder):
     paths = {folder / "page" / "figures" / f"{name}.png": text for name, text in FIGURES.items()}
-    return [{"path": path, "caption": caption, "width": 470}
+    return [{"path": path, "caption": caption, "width": WIDE if path.stem in WIDE_FIGURES else 470}
             for path, caption in paths.items() if path.is_file()]
 
 
@@ -49,6 +50,8 @@ def run_entry(plan, row):
     return {
         "row": row, "anchor": anchor(row["folder"]), "figures": figures_of(folder),
         "thumbnail": thumbnail if thumbnail.is_file() else None,
+        "page": f"{row['folder']}/page/run.html"
+                if (folder / "page" / "run.html").is_file() else None,
         "numbers": shown,
         "config": options.read_text() if options.is_file() else "",
     }
@@ -63,27 +66,30 @@ def summary(rows):
     for row in rows:
         counts[row["result"]] = counts.get(row["result"], 0) + 1
     words = {results.OK: "ended well", results.FAILED: "with an x",
-             results.UNFINISHED: "not finished", results.NO_TRUTH: "without truth"}
+             results.UNFINISHED: "not finished", results.NO_TRUTH: "without truth",
+             results.NOT_ASKED: "not asked for"}
     return ", ".join(f"{count} {words[result]}" for result, count in counts.items())
 
 
-def write_report(plan, theme_name="light"):
-    """Writes results.csv, tables and report.html below the batch's folder; returns the rows."""
+def write_report(plan, asked=None):
+    """Writes results.csv, tables and report.html below the batch's folder; returns the rows.
+    `asked` holds the folders of the runs that were to be done, if not all were."""
     output, suite = plan.places.output, plan.suite
     if not plan.runs:
         return []
-    rows = results.collect(plan)
+    rows = results.collect(plan, asked)
     write_atomically(output / "results.csv", results.to_csv(rows))
     found = make_tables(suite, rows)
     write_tables(output, found)
-    theme = themes.THEMES[theme_name]
     programs = [(name, f"{program['version']} ({program['digest']})")
                 for name, program in plan.programs.items()]
-    ended = [run_entry(plan, row) for row in rows if row["result"] != results.UNFINISHED]
+    ended = [run_entry(plan, row) for row in rows
+             if row["result"] not in (results.UNFINISHED, results.NOT_ASKED)]
     text = page.render(
-        "batch.html", theme, title=suite.title, suite=suite, summary=summary(rows),
+        "batch.html", title=suite.title, suite=suite, summary=summary(rows),
         tables=[table for _, table in found], count=len(rows), runs=ended, anchor=anchor,
         heading=table_formats.heading, shown=table_formats.shown, good=tables.GOOD,
+        metric=tables.METRICS.get(suite.metric, suite.metric),
         missing=plan.missing, programs=programs)
     write_atomically(output / "report.html", text)
     return rows

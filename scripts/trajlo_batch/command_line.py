@@ -8,7 +8,6 @@ import sys
 
 from trajlo_batch.places import ROOT, Places
 from trajlo_batch.yaml_lines import SuiteError
-from trajlo_report import theme as themes
 
 
 class Parser(argparse.ArgumentParser):
@@ -49,7 +48,6 @@ def add_work_arguments(parser, run_name):
                         help="keep runs that another build of the programs has done")
     parser.add_argument("--drop-recordings", action="store_true",
                         help="delete each simulated recording as soon as its runs are done")
-    parser.add_argument("--theme", choices=themes.THEMES, default="light")
     parser.add_argument("--slurm", action="store_true", help="submit the jobs with sbatch")
     parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for it")
 
@@ -61,12 +59,19 @@ def places_of(arguments, name):
 
 
 def say_missing(suite, missing):
-    for name, paths in missing.items():
-        print(f"{name}: no data; looked for {', '.join(paths)}", file=sys.stderr)
-    if missing:
-        print(f"{len(missing)} of {len(suite.sequences)} sequences have no data. --data or "
-              f"TRAJLO_DATASETS names the folder that they are below. {suite.needs}".rstrip(),
-              file=sys.stderr)
+    """Which sequences have no data, what was looked for, and where the data can be had."""
+    if not missing:
+        return
+    name, paths = next(iter(missing.items()))
+    others = f"; the others alike: {', '.join(list(missing)[1:])}" if len(missing) > 1 else ""
+    print(f"{name}: no data; looked for {', '.join(paths)}{others}", file=sys.stderr)
+    print(f"{len(missing)} of {len(suite.sequences)} sequences have no data. --data or "
+          f"TRAJLO_DATASETS names the folder that they are below. {suite.needs}".rstrip(),
+          file=sys.stderr)
+    helper = ROOT / "scripts" / "datasets" / suite.name
+    if helper.is_file():
+        print(f"scripts/datasets/{suite.name} --help says where to download them and how to put "
+              "them in place.", file=sys.stderr)
 
 
 def show_list(plan):

@@ -86,7 +86,7 @@ def evaluation_flags(places, sequence):
     return values
 
 
-def make_run(suite, places, programs, configuration, sequence, theme, cache):
+def make_run(suite, places, programs, configuration, sequence, cache):
     key = (sequence.config, configuration.name, tuple(sequence.settings.items()))
     if key not in cache:
         cache[key] = effective_options(places, suite, configuration, sequence)
@@ -104,7 +104,7 @@ def make_run(suite, places, programs, configuration, sequence, theme, cache):
             "recording": digest([recording, sequence.topics, configuration.lidars]),
             "program": programs["trajlo_run"]["digest"]},
         "evaluation": {
-            "program": programs["trajlo_evaluate"], "theme": theme,
+            "program": programs["trajlo_evaluate"],
             "truth": str(truth) if truth else "",
             "truth_digest": file_digest(truth) if truth and truth.is_file() else "",
             "has_truth": bool(truth or sequence.scenario),
@@ -122,7 +122,7 @@ def differences(old, new, any_version):
                         if key not in ignored and old.get(key) != new.get(key)))
 
 
-def make_plan(suite, places, theme="light", any_version=False, retry=False):
+def make_plan(suite, places, any_version=False, retry=False):
     """Looks at the suite and at what is there; writes nothing. Throws SuiteError."""
     names = ["trajlo_run", "trajlo_evaluate"]
     names += ["trajlo_simulate"] if any(item.scenario for item in suite.sequences) else []
@@ -133,7 +133,7 @@ def make_plan(suite, places, theme="light", any_version=False, retry=False):
         if sought:
             missing[sequence.name] = sought
             continue
-        run = make_run(suite, places, programs, configuration, sequence, theme, cache)
+        run = make_run(suite, places, programs, configuration, sequence, cache)
         status = read_json_if(places.output / run.folder / "status.json")
         if status:
             run.changes = differences(status["depends_on"], run.job["depends_on"], any_version)

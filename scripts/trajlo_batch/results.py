@@ -12,6 +12,7 @@ from trajlo_batch.steps import simulate_command
 
 USABLE = (0, 3)  # exit codes of runs whose whole recording was processed
 OK, FAILED, UNFINISHED, NO_TRUTH = "ok", "x", "not finished", "no truth"
+NOT_ASKED = "not asked for"  # was not done, and the batch was told to do others only
 
 
 def flatten(tree, prefix=""):
@@ -68,6 +69,7 @@ def evaluation_values(folder):
 def run_values(folder):
     summary = read_json_if(folder / "result" / "run.json")
     return {
+        "data_s": dig(summary, "result", "duration_s"),
         "times_real_time": dig(summary, "resources", "real_time_factor"),
         "estimation_ms_per_data_second":
             dig(summary, "resources", "estimation_ms_per_data_second", "median"),
@@ -94,8 +96,15 @@ def outcome(status, evaluation_status, diverged):
     return (FAILED, diverged) if diverged else (OK, status["reason"])
 
 
-def collect(plan):
-    """The rows of all planned runs; all rows have the same keys in the same order."""
+def cpu_per_data_second(cpu_s, data_s):
+    """Seconds of processor time for a second of data. Unlike the time on the clock, it does not
+    depend on what else the machine does."""
+    return cpu_s / data_s if cpu_s and data_s else None
+
+
+def collect(plan, asked=None):
+    """The rows of all planned runs; all rows have the same keys in the same order. `asked` holds
+    the folders of those that were to be done, if not all were."""
     keys, varied = varied_options(plan.runs)
     rows = []
     for run in plan.runs:
@@ -103,6 +112,9 @@ def collect(plan):
         status = read_json_if(folder / "status.json") or {}
         metrics, diverged = evaluation_values(folder)
         result, reason = outcome(status, read_json_if(folder / "evaluation_status.json"), diverged)
+        if result == UNFINISHED and asked is not None and run.folder not in asked:
+            result, reason = NOT_ASKED, "--only left it out"
+        values = run_values(folder)
         rows.append({
             "suite": plan.suite.name, "configuration": run.configuration.name,
             "sequence": run.sequence.name, "group": run.sequence.group,
@@ -110,7 +122,8 @@ def collect(plan):
             **{key: value for key, value in zip(keys, varied[run.folder])},
             "result": result, "reason": reason, "exit_code": status.get("exit_code"),
             "diverged": bool(diverged) if metrics["pairs"] is not None else None,
-            **metrics, **run_values(folder),
+            **metrics, **values,
+            "cpu_s_per_data_second": cpu_per_data_second(status.get("cpu_s"), values["data_s"]),
             **{key: status.get(key) for key in ("wall_s", "cpu_s", "peak_memory_mb", "started",
                                                 "host")},
             "folder": run.folder, "command": rerun_command(plan, run, status),

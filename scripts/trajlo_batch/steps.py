@@ -16,12 +16,14 @@ import time
 import yaml
 
 from trajlo_batch.places import ROOT, read_json_if, write_json
+from trajlo_report import names
 
 EXIT_REASONS = {0: "ok", 1: "configuration refused", 2: "input unreadable",
                 3: "a part of the input was damaged", 4: "estimator lost",
                 5: "output not writable"}
 INTERRUPTED = (130, 143, -signal.SIGINT, -signal.SIGTERM, -signal.SIGHUP)
 TIMEOUT = "timeout"
+PAGE_POINTS = 300_000  # in the 3-D view of a run: a batch has hundreds of pages
 
 
 class StepError(Exception):
@@ -121,6 +123,8 @@ def run_command(job, inputs, files, result):
     command += [f"--config={','.join(files)}"] if files else []
     if job["set"]:
         command.append(f"--set={','.join(f'{k}={v}' for k, v in job['set'].items())}")
+    if not job["keep_map"]:
+        command.append("--noview")
     return command + flags(job["run"])
 
 
@@ -195,7 +199,7 @@ def evaluate(job_file):
     job, folder = read_json_if(job_file), job_file.parent
     output = folder / "evaluation"
     trajectory = folder / "result" / "trajectory.tum"
-    status = {"exit_code": None, "reason": "", "command": [], "theme": job["theme"]}
+    status = {"exit_code": None, "reason": "", "command": []}
     if output.exists():
         shutil.rmtree(output)
     if not job["has_truth"]:
@@ -222,8 +226,9 @@ def draw(status_file):
     status = read_json_if(status_file)
     (folder / "result").mkdir(exist_ok=True)
     command = [sys.executable, ROOT / "scripts" / "draw_run.py", folder / "result",
-               "--output", folder / "page", "--theme", status["theme"],
-               "--title", f"{folder.name} · {folder.parent.name}"]
+               "--output", folder / "page",
+               "--points", str(PAGE_POINTS),
+               "--title", f"{names.title(folder.name)} · {folder.parent.name}"]
     if (folder / "evaluation" / "evaluation.json").is_file():
         command += ["--evaluation", folder / "evaluation"]
     if subprocess.run(command, check=False).returncode != 0:

@@ -62,7 +62,7 @@ def result_cell(rows, suite, decimals):
               if row["result"] in GOOD and row.get(suite.metric) is not None]
     failed = sum(row["result"] == results.FAILED for row in rows)
     if not values and not failed:
-        pending = any(row["result"] == results.UNFINISHED for row in rows)
+        pending = any(row["result"] in (results.UNFINISHED, results.NOT_ASKED) for row in rows)
         return Cell(PENDING if pending else ABSENT, note=note)
     if not values:
         return Cell(X, note=note, folder=folder)
@@ -160,9 +160,11 @@ def suite_table(suite, rows, marked=True):
 
 
 def speed_table(suite, rows):
-    """How many times faster than the recording each run was."""
-    speed = dataclasses.replace(suite, metric="times_real_time", decimals=1)
+    """What a second of data costs each run."""
+    speed = dataclasses.replace(suite, metric="cpu_s_per_data_second", decimals=2)
     table = suite_table(speed, rows, marked=False)
-    table.caption = f"{suite.title}: times real time, {suite.threads} thread(s) a run"
-    table.notes = []
+    threads = "1 thread" if suite.threads == 1 else f"{suite.threads} threads"
+    table.caption = f"{suite.title}: processor time for a second of data [s], {threads} a run"
+    table.notes = ["Below 1, one core keeps up with the sensor. Reading the recording and writing "
+                   "the results are counted."]
     return table

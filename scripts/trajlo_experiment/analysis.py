@@ -94,9 +94,9 @@ class Ranked:
     point: str
     failed: int
     score: float       # geometric mean of error / reference, over seeds, then over groups
-    low: float         # 95 % of the score when seeds are drawn again
+    low: float         # 95 % of the score when seeds are drawn again; NaN where there is one seed
     high: float
-    best_share: float  # how often it is the best of all when seeds are drawn again
+    best_share: float  # how often it is the best of all when seeds are drawn again; as above
     errors: dict       # group -> errors of its seeds
 
 
@@ -110,6 +110,11 @@ def seed_weights(recordings, count, rng):
         for place, member in enumerate(members):
             weights[:, member] = (drawn == place).sum(axis=1) / len(members) / len(groups)
     return weights
+
+
+def fewest_seeds(recordings):
+    groups = [group for group, _ in recordings]
+    return min((groups.count(group) for group in groups), default=0)
 
 
 def rank(rows, metric, reference, rng=None):
@@ -137,11 +142,14 @@ def rank(rows, metric, reference, rng=None):
     # Settings that do the same share what they win.
     best = (drawn == drawn.min(axis=0)) & np.isfinite(drawn)
     wins = (best / np.maximum(best.sum(axis=0), 1)).mean(axis=1)
+    # One seed drawn again and again is always the same, which says nothing of its spread.
+    spread = fewest_seeds(recordings) > 1
     ranked = []
     for i, name in enumerate(points):
         score = math.inf if failed[i].any() else float(np.exp(logs[i] @ even))
-        ranked.append(Ranked(name, int(failed[i].sum()), score, quantile(drawn[i], 0.025),
-                             quantile(drawn[i], 0.975), float(wins[i]),
+        low, high = (quantile(drawn[i], share) if spread else math.nan for share in (0.025, 0.975))
+        ranked.append(Ranked(name, int(failed[i].sum()), score, low, high,
+                             float(wins[i]) if spread else math.nan,
                              {group: errors[i, members].tolist()
                               for group, members in groups.items()}))
     return sorted(ranked, key=lambda item: (item.failed, item.score))

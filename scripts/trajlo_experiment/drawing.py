@@ -6,6 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator, NullLocator
 
 from trajlo_experiment.factors import LOG
+from trajlo_report import theme
 
 MARKERS = "D*sP^v"  # of marked settings
 SHAPES = "os^vDP"   # of scenarios
@@ -21,15 +22,15 @@ def open_frame(axes):
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def mark_style(findings, name, theme):
+def mark_style(findings, name):
     """How a marked setting is drawn, the same in all figures."""
     shape = MARKERS[list(findings.marks).index(name) % len(MARKERS)]
     return {"ls": "", "marker": shape, "ms": 8.5 if shape == "*" else 5.5,
-            "color": theme.methods[1], "mec": theme.panel, "mew": 0.7}
+            "color": theme.METHODS[1], "mec": theme.PANEL, "mew": 0.7}
 
 
-def mark_handles(findings, names, theme):
-    return [Line2D([], [], label=name, **mark_style(findings, name, theme))
+def mark_handles(findings, names):
+    return [Line2D([], [], label=name, **mark_style(findings, name))
             for name in dict.fromkeys(names)]
 
 

@@ -5,16 +5,15 @@ import re
 
 from trajlo_batch import results
 from trajlo_batch.batch_report import summary
-from trajlo_experiment import analysis, figures, figures_tradeoff, table
+from trajlo_experiment import analysis, conclusion, figures, figures_tradeoff, table
 from trajlo_experiment.findings import Findings, level_text
 from trajlo_report import page
-from trajlo_report import theme as themes
 from trajlo_report.files import write_atomically
 
 BEST = 12  # settings of the table
 NUMBER = re.compile(r"\b\d+(\.\d+)?(e[+-]\d+)?(?= (m|s|%|°))")
 RUN_COLUMNS = ("row", "sequence", "result", "ate_rmse_m", "ate_rotation_rmse_deg", "rpe_1m_rmse_m",
-               "rpe_10m_rmse_m", "times_real_time", "iterations_per_window", "inlier_share",
+               "rpe_10m_rmse_m", "cpu_ms_per_data_second", "iterations_per_window", "inlier_share",
                "share_flagged")
 
 
@@ -48,7 +47,7 @@ def best_settings(findings):
             "rank": place, "levels": levels_of(findings, row), "marks": row["marks"],
             "score": text_of(ranked.score, 3),
             "interval": f"{text_of(ranked.low, 2)} to {text_of(ranked.high, 2)}",
-            "best_share": f"{100 * ranked.best_share:.0f} %", "failed": ranked.failed,
+            "best_share": text_of(100 * ranked.best_share, 0), "failed": ranked.failed,
             "groups": [group_cell(findings, ranked.errors[group]) for group in findings.groups]})
     return lines
 
@@ -80,25 +79,18 @@ def run_lines(findings, rows):
              "values": [row.get(name) for name in RUN_COLUMNS]} for row in rows]
 
 
-def seeds_note(findings):
-    """What the intervals are worth."""
-    per_group = [len({row["seed"] for row in findings.rows if row["group"] == group})
-                 for group in findings.groups]
-    fewest = min(per_group, default=0)
-    if fewest < 2:
-        return "Some scenarios have one seed only: the intervals know nothing of their spread."
-    if fewest < 5:
-        return f"With {fewest} seeds a scenario the intervals are rough; more seeds make them fair."
-    return ""
+DESIGNS = {"grid": "all combinations of the values", "one_at_a_time": "one factor at a time about "
+           "a centre", "random": "random settings", "latin_hypercube": "a Latin hypercube",
+           "sobol": "a Sobol sequence"}
 
 
 def design_text(study):
     design = study.design
-    text = design.kind.replace("_", " ")
+    text = DESIGNS.get(design.kind, design.kind.replace("_", " "))
     return f"{text}, {design.samples} samples, seed {design.seed}" if design.samples else text
 
 
-def write_report(plan, theme_name="light"):
+def write_report(plan):
     """Writes results.csv, figures and report.html into the output folder; returns the rows."""
     output, study = plan.places.output, plan.suite
     if not plan.runs:
@@ -106,16 +98,18 @@ def write_report(plan, theme_name="light"):
     rows = table.collect(plan)
     output.mkdir(parents=True, exist_ok=True)
     write_atomically(output / "results.csv", results.to_csv(rows))
-    findings, theme = Findings(study, rows), themes.THEMES[theme_name]
-    drawn = figures.draw_all(findings, theme, output / "figures") if findings.rows else []
+    findings = Findings(study, rows)
+    drawn = figures.draw_all(findings, output / "figures") if findings.rows else []
     programs = [(name, f"{program['version']} ({program['digest']})")
                 for name, program in plan.programs.items()]
     shown = [name for name in RUN_COLUMNS if any(row.get(name) is not None for row in rows)]
     text = page.render(
-        "experiment.html", theme, title=study.title, study=study, summary=summary(rows),
+        "experiment.html", title=study.title, study=study, summary=summary(rows),
         count=len(rows), design=design_text(study), recordings=len(study.base_sequences),
         findings=findings, best=best_settings(findings), front=list(front_lines(findings)),
-        failures=failure_lines(rows), seeds_note=seeds_note(findings), figures=drawn,
+        failures=failure_lines(rows), conclusions=conclusion.sentences(findings),
+        warnings=conclusion.warnings(plan), caution=conclusion.caution(findings),
+        figures=drawn,
         runs=run_lines(findings, rows), run_columns=RUN_COLUMNS, shown=shown, programs=programs,
         missing=plan.missing, text=study.file.read_text())
     write_atomically(output / "report.html", text)

@@ -4,9 +4,8 @@ import re
 
 from trajlo_experiment import (designs, figures_heat, figures_levels, figures_parallel,
                                figures_sensitivity, figures_tornado, figures_tradeoff)
-from trajlo_report import theme as themes
+from trajlo_report import theme
 
-FORMATS = ("svg", "png")
 MOST_ROWS = 4  # levels of a third factor that get a line of panels each
 
 
@@ -28,64 +27,64 @@ def heat_maps(findings):
     return [tuple([*factors[:2], *third])]
 
 
-def map_figures(findings, theme):
+def map_figures(findings):
     """Name, figure, caption."""
     for index, factors in enumerate(heat_maps(findings)):
         name = "heat_map" if index == 0 else f"heat_map_{index + 1}"
         across, upwards = factors[:2]
         if findings.sampled:
             if across.numeric and upwards.numeric:
-                yield name, figures_heat.draw_scatter_map(findings, across, upwards, theme), (
+                yield name, figures_heat.draw_scatter_map(findings, across, upwards), (
                     "Each point is a setting; its colour is its error over all scenarios.")
             continue
         rows = factors[2] if len(factors) == 3 else None
         rest = [factor for factor in findings.study.factors if factor not in factors]
         over = "seeds" if not rest else "seeds and " + ", ".join(factor.label for factor in rest)
-        yield name, figures_heat.draw_heat_map(findings, across, upwards, rows, theme), (
+        yield name, figures_heat.draw_heat_map(findings, across, upwards, rows), (
             f"Median {findings.label} over {over}; the frame is around the best of a panel, the "
             "colour says how much worse a cell is than the best of its scenario. A hatched cell "
             "with × failed in half of its runs or more; a number before × says how many failed. "
             "The last column is the geometric mean of the colours.")
 
 
-def all_figures(findings, theme):
+def all_figures(findings):
     """Name, figure or nothing, caption."""
     kind = findings.study.design.kind
     if kind == designs.ONE_AT_A_TIME:
-        yield "tornado", figures_tornado.draw_tornado(findings, theme), (
+        yield "tornado", figures_tornado.draw_tornado(findings), (
             "How far each factor alone moves the error away from that of the centre: its best and "
             "its worst value, or each of its names.")
-    yield from map_figures(findings, theme)
+    yield from map_figures(findings)
     about = ("about the centre" if kind == designs.ONE_AT_A_TIME else
              "over seeds and all other factors")
-    yield "sensitivity", figures_sensitivity.draw_sensitivity(findings, theme), (
+    yield "sensitivity", figures_sensitivity.draw_sensitivity(findings), (
         f"Median and quartiles {about} for each value of a factor. A failed run counts as an "
         "infinite error; × says how many failed.")
     for factor in findings.study.factors:
         if not factor.numeric and len(findings.bins(factor)) > 1:
             name = re.sub(r"\W+", "_", factor.name)
-            yield f"levels_{name}", figures_levels.draw_levels(findings, factor, theme), (
+            yield f"levels_{name}", figures_levels.draw_levels(findings, factor), (
                 f"Median and quartiles {about} of error and processor time: {factor.label}.")
-    yield "failures", figures_sensitivity.draw_failures(findings, theme), (
+    yield "failures", figures_sensitivity.draw_failures(findings), (
         "Share of the runs that got lost, diverged or crashed.")
-    yield "pareto", figures_tradeoff.draw_pareto(findings, theme), (
+    yield "pareto", figures_tradeoff.draw_pareto(findings), (
         "Error against processor time of the whole program; the numbers lead to the table.")
     if kind != designs.ONE_AT_A_TIME:
-        yield "parallel", figures_parallel.draw_parallel(findings, theme), (
+        yield "parallel", figures_parallel.draw_parallel(findings), (
             "Each line is a setting, from its values to its error over all scenarios.")
 
 
-def draw_all(findings, theme, folder):
+def draw_all(findings, folder):
     """Writes all figures; returns those of the page with captions and widths."""
     folder.mkdir(parents=True, exist_ok=True)
-    themes.apply(theme)
+    theme.apply()
     drawn = []
-    for name, figure, caption in all_figures(findings, theme):
+    for name, figure, caption in all_figures(findings):
         if figure is None:
-            for kind in FORMATS:  # of an earlier state, in which something had failed
+            for kind in theme.FORMATS:  # of an earlier state, in which something had failed
                 (folder / f"{name}.{kind}").unlink(missing_ok=True)
             continue
         width = int(140 * figure.get_size_inches()[0])
-        paths = themes.save(figure, folder / name, FORMATS)
+        paths = theme.save(figure, folder / name)
         drawn.append({"path": paths[0], "caption": caption, "width": width})
     return drawn

@@ -12,7 +12,7 @@ from trajlo_experiment import analysis
 from trajlo_experiment.drawing import below, mark_handles, mark_style, plain_log, soften
 from trajlo_experiment.factors import LOG
 from trajlo_experiment.findings import level_text, place_among
-from trajlo_report import theme as themes
+from trajlo_report import names, theme
 
 ALL = "all scenarios"
 WORST = 10.0  # cells this many times worse than the best look alike
@@ -45,16 +45,16 @@ def together(panels):
         return np.exp(np.mean(np.log(panels), axis=0))
 
 
-def draw_cells(axes, ratios, texts, failed, theme, norm):
-    colors = matplotlib.colormaps[theme.error_map]
+def draw_cells(axes, ratios, texts, failed, norm):
+    colors = matplotlib.colormaps[theme.ERROR_MAP]
     axes.imshow(np.ma.masked_invalid(ratios), cmap=colors, norm=norm, origin="lower",
                 aspect="auto")
     for (i, j), ratio in np.ndenumerate(ratios):
         if math.isnan(ratio):
             continue
         if math.isinf(ratio):
-            axes.add_patch(plt.Rectangle((j - 0.5, i - 0.5), 1, 1, facecolor=theme.grid,
-                                         edgecolor=theme.background, hatch="////", lw=0))
+            axes.add_patch(plt.Rectangle((j - 0.5, i - 0.5), 1, 1, facecolor=theme.GRID,
+                                         edgecolor=theme.BACKGROUND, hatch="////", lw=0))
         red, green, blue, _ = colors(norm(min(ratio, WORST)))
         dark = 0.3 * red + 0.59 * green + 0.11 * blue < 0.5 and math.isfinite(ratio)
         text = texts[i, j] if math.isfinite(ratio) else "×"
@@ -65,10 +65,10 @@ def draw_cells(axes, ratios, texts, failed, theme, norm):
     if np.isfinite(ratios).any():
         i, j = np.unravel_index(np.nanargmin(ratios), ratios.shape)
         axes.add_patch(plt.Rectangle((j - 0.47, i - 0.47), 0.94, 0.94, fill=False, lw=1.3,
-                                     edgecolor=theme.text))
+                                     edgecolor=theme.TEXT))
 
 
-def draw_marks(axes, findings, across, upwards, columns, lines, rows_factor, level, theme):
+def draw_marks(axes, findings, across, upwards, columns, lines, rows_factor, level):
     """Marked settings at their place, also between the cells."""
     drawn = []
     for name, row in findings.marks.items():
@@ -79,12 +79,12 @@ def draw_marks(axes, findings, across, upwards, columns, lines, rows_factor, lev
             continue
         if x == int(x) and y == int(y):  # on a cell: beside its number
             x, y = x + 0.33, y + 0.3
-        axes.plot(x, y, zorder=5, **mark_style(findings, name, theme))
+        axes.plot(x, y, zorder=5, **mark_style(findings, name))
         drawn.append(name)
     return drawn
 
 
-def draw_heat_map(findings, across, upwards, rows_factor, theme):
+def draw_heat_map(findings, across, upwards, rows_factor):
     """Panels of scenarios beside each other; with `rows_factor` a line of panels for each level."""
     rows = [row for row in findings.design
             if row[across.name] is not None and row[upwards.name] is not None]
@@ -95,7 +95,7 @@ def draw_heat_map(findings, across, upwards, rows_factor, theme):
     titles = findings.groups + ([ALL] if several else [])
     per_line = len(titles) if rows_factor else min(PER_LINE, len(titles))
     count = len(levels) if rows_factor else math.ceil(len(titles) / per_line)
-    width = themes.PAGE_IN if per_line > 2 else themes.PAGE_IN * (per_line + 0.4) / 3.4
+    width = theme.PAGE_IN if per_line > 2 else theme.PAGE_IN * (per_line + 0.4) / 3.4
     height = (0.5 + 0.27 * len(lines)) * count + 0.55
     figure, grid = plt.subplots(count, per_line, figsize=(width, height), squeeze=False,
                                 sharex=True, sharey=True, constrained_layout=True)
@@ -122,20 +122,21 @@ def draw_heat_map(findings, across, upwards, rows_factor, theme):
                 ratios = relative(values, best[title])
                 texts = np.vectorize(findings.text)(values)
                 panels.append((ratios, failed))
-            draw_cells(axes, ratios, texts, failed, theme, norm)
+            draw_cells(axes, ratios, texts, failed, norm)
             marked += draw_marks(axes, findings, across, upwards, columns, lines, rows_factor,
-                                 level, theme)
+                                 level)
             unit = "× best" if title == ALL and several else findings.unit
-            finish_panel(axes, f"{title} [{unit}]" if unit else title, index, rows_factor)
+            shown = names.title(title)
+            finish_panel(axes, f"{shown} [{unit}]" if unit else shown, index, rows_factor)
     label_axes(grid, across, upwards, columns, lines, rows_factor, levels)
     for axes in grid.flat[len(titles) * len(levels):]:
         axes.set_axis_off()
-    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, theme.error_map), ax=grid,
+    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, theme.ERROR_MAP), ax=grid,
                           extend="max", shrink=0.9, pad=0.01, aspect=30)
     bar.set_label("colour: error / best")
     bar.set_ticks([1, 2, 5, 10], labels=["1", "2", "5", "10"])
     bar.ax.minorticks_off()
-    below(figure, mark_handles(findings, marked, theme))
+    below(figure, mark_handles(findings, marked))
     return figure
 
 
@@ -159,9 +160,9 @@ def label_axes(grid, across, upwards, columns, lines, rows_factor, levels):
         axes.set_ylabel(text)
 
 
-def draw_scatter_map(findings, across, upwards, theme):
+def draw_scatter_map(findings, across, upwards):
     """Points of a sampled design over two of its factors; the colour is the error over all."""
-    figure, axes = plt.subplots(figsize=(themes.COLUMN_IN, 2.7), constrained_layout=True)
+    figure, axes = plt.subplots(figsize=(theme.COLUMN_IN, 2.7), constrained_layout=True)
     points = {row["point"]: row for row in findings.design if row["point"] in findings.scores}
     scores = np.array([findings.scores[name].score for name in points])
     x, y = (np.array([row[factor.name] for row in points.values()])
@@ -170,12 +171,12 @@ def draw_scatter_map(findings, across, upwards, theme):
     if good.any():
         best = scores[good].min()
         shown = axes.scatter(x[good], y[good], c=scores[good] / best, s=22, lw=0.4,
-                             edgecolor=theme.text, norm=LogNorm(1.0, WORST), cmap=theme.error_map)
+                             edgecolor=theme.TEXT, norm=LogNorm(1.0, WORST), cmap=theme.ERROR_MAP)
         bar = figure.colorbar(shown, extend="max")
         bar.set_label("error / best setting")
         bar.set_ticks([1, 2, 5, 10], labels=["1", "2", "5", "10"])
         bar.ax.minorticks_off()
-    axes.plot(x[~good], y[~good], "x", color=theme.end, ms=5, mew=1.2)
+    axes.plot(x[~good], y[~good], "x", color=theme.END, ms=5, mew=1.2)
     for factor, set_scale, axis in ((across, axes.set_xscale, axes.xaxis),
                                     (upwards, axes.set_yscale, axes.yaxis)):
         if factor.scale == LOG:
@@ -185,11 +186,11 @@ def draw_scatter_map(findings, across, upwards, theme):
               if row[across.name] is not None and row[upwards.name] is not None}
     for name, row in marked.items():
         axes.plot(row[across.name], row[upwards.name], zorder=5,
-                  **mark_style(findings, name, theme))
+                  **mark_style(findings, name))
     axes.set(xlabel=across.label, ylabel=upwards.label)
-    handles = mark_handles(findings, marked, theme)
+    handles = mark_handles(findings, marked)
     if not good.all():
-        handles.append(Line2D([], [], ls="", marker="x", color=theme.end, ms=5, mew=1.2,
+        handles.append(Line2D([], [], ls="", marker="x", color=theme.END, ms=5, mew=1.2,
                               label="fails on a recording"))
     below(figure, handles)
     return figure

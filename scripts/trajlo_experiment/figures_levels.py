@@ -8,14 +8,14 @@ from matplotlib.patheffects import withStroke
 from trajlo_experiment.drawing import SHAPES, below, open_frame, plain_log
 from trajlo_experiment.figures_sensitivity import quartiles
 from trajlo_experiment.figures_tradeoff import COST, COST_LABEL
-from trajlo_report import theme as themes
+from trajlo_report import names, theme
 
 
-def draw_quartiles(axes, findings, bins, values_of, theme):
+def draw_quartiles(axes, findings, bins, values_of):
     """Median and quartiles of each bin and scenario; values_of(rows, group) are numbers."""
     finite, count = [], len(findings.groups)
     for index, group in enumerate(findings.groups):
-        look = {"color": themes.method_style(theme, index)["color"], "marker": SHAPES[index % 6]}
+        look = {"color": theme.method_style(index)["color"], "marker": SHAPES[index % 6]}
         for place, item in enumerate(bins):
             values = values_of(item.rows, group)
             low, middle, high = quartiles(values)
@@ -30,8 +30,8 @@ def draw_quartiles(axes, findings, bins, values_of, theme):
             if failed:
                 axes.text(1.0, at, f"× {failed} of {len(values)}", fontsize=5.5, va="center",
                           ha="right", color=look["color"], transform=axes.get_yaxis_transform(),
-                          path_effects=[withStroke(linewidth=2, foreground=theme.panel)])
-        axes.plot([], [], ms=3.5, ls="", label=group, **look)
+                          path_effects=[withStroke(linewidth=2, foreground=theme.PANEL)])
+        axes.plot([], [], ms=3.5, ls="", label=names.title(group), **look)
     if finite and min(finite) > 0:
         span = max(math.log10(max(finite) / min(finite)), 0.3)
         axes.set_xscale("log")
@@ -41,21 +41,21 @@ def draw_quartiles(axes, findings, bins, values_of, theme):
         plain_log(axes.xaxis, *axes.get_xlim())
 
 
-def draw_levels(findings, factor, theme):
+def draw_levels(findings, factor):
     bins = findings.bins(factor)
     height = len(bins) * (0.1 + 0.09 * len(findings.groups)) + 0.5
-    figure, grid = plt.subplots(1, 2, sharey=True, figsize=(themes.PAGE_IN, height),
+    figure, grid = plt.subplots(1, 2, sharey=True, figsize=(theme.PAGE_IN, height),
                                 constrained_layout=True, gridspec_kw={"width_ratios": [3, 2]})
-    draw_quartiles(grid[0], findings, bins, findings.errors, theme)
+    draw_quartiles(grid[0], findings, bins, findings.errors)
     draw_quartiles(grid[1], findings, bins, lambda rows, group: [
-        row[COST] for row in rows if row["group"] == group and row[COST]], theme)
+        row[COST] for row in rows if row["group"] == group and row[COST]])
     grid[0].set_yticks(range(len(bins)), [item.label for item in bins])
     grid[0].set(xlabel=findings.label, ylim=(len(bins) - 0.45, -0.55))
     grid[1].set(xlabel=COST_LABEL)
     for axes in grid:
         axes.grid(axis="y", visible=False)
         for place in range(1, len(bins)):
-            axes.axhline(place - 0.5, color=theme.grid, lw=0.5)
+            axes.axhline(place - 0.5, color=theme.GRID, lw=0.5)
         open_frame(axes)
     below(figure, grid[0].get_legend_handles_labels()[0])
     return figure

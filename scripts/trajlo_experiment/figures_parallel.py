@@ -1,19 +1,20 @@
 # SPDX-License-Identifier: MIT
 """Settings as lines through all factors to their error."""
 import math
+import textwrap
 
 import matplotlib
 from matplotlib import pyplot as plt
 from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
 
 from trajlo_experiment.drawing import below
 from trajlo_experiment.factors import LOG, is_number
 from trajlo_experiment.findings import level_text
-from trajlo_report import theme as themes
+from trajlo_report import theme
 
 HIGHLIGHTED = 0.1  # share of the settings whose lines stand out
+LEAST_APART = 0.07  # of the height of an axis: two texts
 
 
 def height_on_axis(findings, factor, level):
@@ -28,15 +29,33 @@ def height_on_axis(findings, factor, level):
     return places[level] / max(len(places) - 1, 1)
 
 
+def spread_ticks(ticks, least):
+    """Ticks (height, text) without those that are nearer than `least` to one that is kept; both
+    ends are."""
+    ticks = sorted(ticks)
+    if len(ticks) < 3:
+        return ticks
+    kept = [ticks[0]]
+    for tick in ticks[1:-1]:
+        if tick[0] - kept[-1][0] >= least and ticks[-1][0] - tick[0] >= least:
+            kept.append(tick)
+    return [*kept, ticks[-1]]
+
+
 def axis_ticks(findings, factor):
     values = [row[factor.name] for row in findings.design if row[factor.name] is not None]
-    values = list(dict.fromkeys(values))
-    if len(values) > 6 and factor.numeric:
-        values = [min(values), max(values)]
-    return [(height_on_axis(findings, factor, value), level_text(value)) for value in values]
+    ticks = [(height_on_axis(findings, factor, value), level_text(value))
+             for value in dict.fromkeys(values)]
+    return spread_ticks(ticks, LEAST_APART) if factor.numeric else sorted(ticks)
 
 
-def draw_parallel(findings, theme):
+def wrapped(title, count):
+    """A title as narrow as the distance between two of `count` axes."""
+    letters = max(8, int(theme.PAGE_IN * 13 / count))
+    return textwrap.fill(title, letters, break_long_words=False)
+
+
+def draw_parallel(findings):
     """Each setting is a line through its levels to its error; the best stand out."""
     factors = [factor for factor in findings.study.factors if len(findings.bins(factor)) > 1]
     points = {row["point"]: row for row in findings.design if row["point"] in findings.scores
@@ -48,42 +67,46 @@ def draw_parallel(findings, theme):
     low, high = finite[0], min(finite[-1], 10 * finite[0])
     norm = LogNorm(low, max(high, 1.01 * low))
     bound = finite[max(2, math.ceil(HIGHLIGHTED * len(finite)) - 1)]
-    figure, axes = plt.subplots(figsize=(themes.PAGE_IN, 2.5), constrained_layout=True)
-    colors = matplotlib.colormaps[theme.error_map + "_r" if not theme.error_map.endswith("_r")
-                                  else theme.error_map[:-2]]
+    names = max((len(axis_ticks(findings, factor)) for factor in factors if not factor.numeric),
+                default=0)
+    figure, axes = plt.subplots(figsize=(theme.PAGE_IN, max(2.5, 0.8 + 0.13 * names)),
+                                constrained_layout=True)
+    colors = matplotlib.colormaps[theme.ERROR_MAP].reversed()
     for name, row in sorted(points.items(), key=lambda item: -findings.scores[item[0]].score):
         score = findings.scores[name].score
         heights = [height_on_axis(findings, factor, row[factor.name]) for factor in factors]
         heights.append(norm(min(score, high)) if math.isfinite(score) else 1.12)
         lost = not math.isfinite(score)
-        color = theme.end if lost else colors(0.85 * norm(min(score, high)))
+        color = theme.END if lost else colors(0.85 * norm(min(score, high)))
         look = {"lw": 1.5, "alpha": 0.95, "zorder": 3} if score <= bound else {"lw": 0.5,
                                                                              "alpha": 0.45}
         axes.plot(range(len(heights)), heights, color=color, ls=":" if lost else "-", **look)
     titles = [factor.label for factor in factors]
     for place, factor in enumerate(factors):
-        axes.axvline(place, color=theme.text, lw=0.7, zorder=4)
+        axes.axvline(place, color=theme.TEXT, lw=0.7, zorder=4)
         for height, text in axis_ticks(findings, factor):
             axes.annotate(text, (place, height), textcoords="offset points", xytext=(-3, 0),
                           ha="right", va="center", fontsize=6.5, zorder=5,
-                          path_effects=[withStroke(linewidth=2, foreground=theme.panel)])
+                          bbox={"facecolor": theme.PANEL, "alpha": 0.85, "lw": 0, "pad": 0.6})
     last = len(factors)
-    axes.axvline(last, color=theme.text, lw=0.7)
+    axes.axvline(last, color=theme.TEXT, lw=0.7)
     ticks = [low, *(value for value in (0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50)
                     if 1.12 * low < value < 0.9 * high), high]
-    for value in ticks:
-        axes.annotate(f"{value:.2g}", (last, norm(value)), textcoords="offset points",
+    for height, text in spread_ticks([(float(norm(value)), f"{value:.2g}") for value in ticks],
+                                     LEAST_APART):
+        axes.annotate(text, (last, height), textcoords="offset points",
                       xytext=(4, 0), va="center", fontsize=6.5)
     if len(finite) < len(points):
         axes.annotate("fails", (last, 1.12), textcoords="offset points", xytext=(4, 0),
-                      va="center", fontsize=6.5, color=theme.end)
-    axes.set_xticks(range(last + 1), [*titles, findings.ratio_label.replace(" / ", " /\n")])
+                      va="center", fontsize=6.5, color=theme.END)
+    axes.set_xticks(range(last + 1), [wrapped(title, last + 1)
+                                      for title in [*titles, findings.ratio_label]])
     axes.set(xlim=(-0.35, last + 0.35), ylim=(-0.06, 1.2), yticks=[])
     axes.tick_params(length=0)
     axes.grid(False)
     axes.spines[:].set_visible(False)
     below(figure, [Line2D([], [], color=colors(0.0), lw=1.5,
                           label=f"the best {100 * HIGHLIGHTED:.0f} % of the settings"),
-                   *([Line2D([], [], color=theme.end, ls=":", lw=1, label="fails on a recording")]
+                   *([Line2D([], [], color=theme.END, ls=":", lw=1, label="fails on a recording")]
                      if len(finite) < len(points) else [])])
     return figure

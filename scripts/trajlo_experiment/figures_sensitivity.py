@@ -12,7 +12,7 @@ from trajlo_experiment.drawing import (SHAPES, below, error_axis, factor_axis, m
                                        mark_style, open_frame)
 from trajlo_experiment.experiment import CENTER
 from trajlo_experiment.factors import is_number
-from trajlo_report import theme as themes
+from trajlo_report import names, theme
 
 PER_LINE = 3
 
@@ -24,9 +24,9 @@ def quartiles(errors):
 def panels(count, height_in=2.1, per_line=PER_LINE, sharey=False):
     lines = math.ceil(count / per_line)
     columns = min(count, per_line)
-    width = themes.PAGE_IN * (columns / per_line if columns < per_line else 1.0)
+    width = theme.PAGE_IN * (columns / per_line if columns < per_line else 1.0)
     figure, grid = plt.subplots(lines, columns, squeeze=False, sharey=sharey,
-                                figsize=(max(width, themes.COLUMN_IN), height_in * lines),
+                                figsize=(max(width, theme.COLUMN_IN), height_in * lines),
                                 constrained_layout=True)
     for axes in grid.flat[count:]:
         axes.set_axis_off()
@@ -43,13 +43,13 @@ def failure_marks(axes, place, failed, index, color):
                   color=color).set_in_layout(False)
 
 
-def draw_factor(axes, findings, factor, theme):
+def draw_factor(axes, findings, factor):
     """Median and quartiles over everything else, a line for each scenario."""
     bins = findings.bins(factor)
     centers = np.array([item.center for item in bins], dtype=float)
     everything, best_lines = [], findings.study.design.kind == designs.GRID
     for index, group in enumerate(findings.groups):
-        style = themes.method_style(theme, index)
+        style = theme.method_style(index)
         spread = np.array([quartiles(findings.errors(item.rows, group)) for item in bins])
         finite = np.where(np.isfinite(spread), spread, np.nan)
         everything += list(finite.flat)
@@ -73,7 +73,7 @@ def draw_factor(axes, findings, factor, theme):
     for name, row in findings.marks.items():
         if is_number(row[factor.name]) and name != CENTER:
             axes.plot(row[factor.name], 0.0, transform=axes.get_xaxis_transform(), clip_on=False,
-                      zorder=5, **mark_style(findings, name, theme))
+                      zorder=5, **mark_style(findings, name))
 
 
 def point_medians(findings, rows, group):
@@ -85,7 +85,7 @@ def point_medians(findings, rows, group):
     return [analysis.median(errors) for errors in points.values()]
 
 
-def draw_sensitivity(findings, theme):
+def draw_sensitivity(findings):
     """A panel for each numeric factor."""
     factors = [factor for factor in findings.study.factors
                if factor.numeric and len(findings.bins(factor)) > 1]
@@ -93,30 +93,30 @@ def draw_sensitivity(findings, theme):
         return None
     figure, grid = panels(len(factors))
     for axes, factor in zip(grid, factors):
-        draw_factor(axes, findings, factor, theme)
+        draw_factor(axes, findings, factor)
     for axes in grid[::PER_LINE]:
         axes.set_ylabel(findings.label)
-    handles = scenario_handles(findings, theme)
-    handles.append(Patch(color=theme.text, alpha=0.15, lw=0, label="quartiles"))
+    handles = scenario_handles(findings)
+    handles.append(Patch(color=theme.TEXT, alpha=0.15, lw=0, label="quartiles"))
     if findings.study.design.kind == designs.GRID and len(findings.study.factors) > 1:
-        handles.append(Line2D([], [], color=theme.text, lw=0.7, ls=(0, (1, 1.2)),
+        handles.append(Line2D([], [], color=theme.TEXT, lw=0.7, ls=(0, (1, 1.2)),
                               label="best of the other factors"))
     marked = [name for name, row in findings.marks.items() if name != CENTER
               and any(is_number(row[factor.name]) for factor in factors)]
-    below(figure, handles + mark_handles(findings, marked, theme))
+    below(figure, handles + mark_handles(findings, marked))
     return figure
 
 
-def scenario_handles(findings, theme):
-    handles = [Line2D([], [], marker="o", ms=3, label=group, **themes.method_style(theme, index))
+def scenario_handles(findings):
+    handles = [Line2D([], [], marker="o", ms=3, label=names.title(group), **theme.method_style(index))
                for index, group in enumerate(findings.groups)]
     if findings.failures:
-        handles.append(Line2D([], [], ls="", marker="x", ms=4, mew=1.0, color=theme.text,
+        handles.append(Line2D([], [], ls="", marker="x", ms=4, mew=1.0, color=theme.TEXT,
                               label="number of failures"))
     return handles
 
 
-def draw_failures(findings, theme):
+def draw_failures(findings):
     """The share of runs that failed by level, with its 95 % interval; nothing if none failed."""
     factors = [factor for factor in findings.study.factors if len(findings.bins(factor)) > 1]
     if not findings.failures or not factors:
@@ -129,14 +129,15 @@ def draw_failures(findings, theme):
         for place, item in enumerate(bins):
             failed = [math.isinf(error) for error in findings.errors(item.rows)]
             rate, (low, high) = np.mean(failed), analysis.wilson(sum(failed), len(failed))
-            axes.bar(place, 100 * rate, 0.62, color=theme.grid)
-            axes.plot([place, place], [100 * low, 100 * high], color=theme.text, lw=0.8)
+            axes.bar(place, 100 * rate, 0.62, color=theme.GRID)
+            if len(failed) > 1:
+                axes.plot([place, place], [100 * low, 100 * high], color=theme.TEXT, lw=0.8)
             for index, group in enumerate(findings.groups):
                 own = [math.isinf(error) for error in findings.errors(item.rows, group)]
                 at = place + (index - (len(findings.groups) - 1) / 2) * 0.13
                 if own:
                     axes.plot(at, 100 * np.mean(own), SHAPES[index % 6], ms=3,
-                              color=themes.method_style(theme, index)["color"])
+                              color=theme.method_style(index)["color"])
         texts = [item.label for item in bins]
         long = max(map(len, texts)) > 7
         axes.set_xticks(range(len(bins)), texts, rotation=35 if long else 0,
@@ -147,10 +148,10 @@ def draw_failures(findings, theme):
         open_frame(axes)
     for axes in grid[::per_line]:
         axes.set_ylabel("failed runs [%]")
-    handles = [Line2D([], [], ls="", marker=SHAPES[index % 6], ms=4, label=group,
-                      color=themes.method_style(theme, index)["color"])
+    handles = [Line2D([], [], ls="", marker=SHAPES[index % 6], ms=4, label=names.title(group),
+                      color=theme.method_style(index)["color"])
                for index, group in enumerate(findings.groups)]
-    handles += [Patch(color=theme.grid, label="all scenarios"),
-                Line2D([], [], color=theme.text, lw=0.8, label="95 % interval")]
+    handles += [Patch(color=theme.GRID, label="all scenarios"),
+                Line2D([], [], color=theme.TEXT, lw=0.8, label="95 % interval")]
     below(figure, handles)
     return figure

@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 from trajlo_experiment import analysis
 from trajlo_experiment.drawing import below, open_frame, plain_log
 from trajlo_experiment.experiment import CENTER
-from trajlo_report import theme as themes
+from trajlo_report import theme
 
 
 def swings(findings):
@@ -27,7 +27,7 @@ def swings(findings):
     return [(text, ends) for text, ends in found if ends]
 
 
-def draw_tornado(findings, theme):
+def draw_tornado(findings):
     """How far each factor moves the error away from that of the centre; the widest on top."""
     items = swings(findings)
     if not items or CENTER not in findings.marks:
@@ -42,11 +42,11 @@ def draw_tornado(findings, theme):
               (ranked.score, ranked.low, ranked.high) if math.isfinite(value)] + [1.0]
     span = max(math.log10(max(finite) / min(finite)), 0.1)
     low, high = min(finite) / 10 ** (0.18 * span), max(finite) * 10 ** (0.3 * span)
-    figure, axes = plt.subplots(figsize=(themes.PAGE_IN * 0.75, 0.23 * len(items) + 0.6),
+    figure, axes = plt.subplots(figsize=(theme.PAGE_IN * 0.75, 0.23 * len(items) + 0.6),
                                 constrained_layout=True)
     for place, (_, ends) in enumerate(items):
-        draw_swing(axes, place, ends, (low, high), theme)
-    axes.axvline(1.0, color=theme.text, lw=0.8)
+        draw_swing(axes, place, ends, (low, high))
+    axes.axvline(1.0, color=theme.TEXT, lw=0.8)
     axes.set_yticks(range(len(items)), [text for text, _ in items])
     axes.set(xscale="log", xlim=(low, high), ylim=(-0.7, len(items) - 0.3))
     plain_log(axes.xaxis, low, high)
@@ -54,16 +54,17 @@ def draw_tornado(findings, theme):
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
     open_frame(axes)
-    below(figure, [plt.Rectangle((0, 0), 1, 1, color=theme.methods[2], label="better"),
-                   plt.Rectangle((0, 0), 1, 1, color=theme.methods[1], label="worse"),
-                   Line2D([], [], color=theme.text, lw=0.8, label="95 % over seeds"),
-                   *([Line2D([], [], ls="", marker="x", color=theme.end, label="runs that failed")]
+    below(figure, [plt.Rectangle((0, 0), 1, 1, color=theme.METHODS[2], label="better"),
+                   plt.Rectangle((0, 0), 1, 1, color=theme.METHODS[1], label="worse"),
+                   *([Line2D([], [], color=theme.TEXT, lw=0.8, label="95 % over seeds")]
+                     if findings.has_intervals else []),
+                   *([Line2D([], [], ls="", marker="x", color=theme.END, label="runs that failed")]
                      if findings.failures else [])])
     return figure
 
 
-def draw_swing(axes, place, ends, limits, theme):
-    finite = [(text, ranked) for text, ranked in ends if math.isfinite(ranked.score)]
+def draw_swing(axes, place, levels, limits):
+    finite = [(text, ranked) for text, ranked in levels if math.isfinite(ranked.score)]
     best = min(finite, key=lambda item: item[1].score, default=None)
     worst = max(finite, key=lambda item: item[1].score, default=None)
     # Where both ends are on one side, the farther one is the swing.
@@ -72,16 +73,16 @@ def draw_swing(axes, place, ends, limits, theme):
     for text, ranked in shown:
         better = ranked.score < 1.0
         axes.barh(place, ranked.score - 1.0, left=1.0, height=0.62,
-                  color=theme.methods[2] if better else theme.methods[1], alpha=0.85)
+                  color=theme.METHODS[2] if better else theme.METHODS[1], alpha=0.85)
         if math.isfinite(ranked.high):
-            axes.plot([ranked.low, ranked.high], [place, place], color=theme.text, lw=0.8)
-        edge = min(ranked.low, ranked.score) if better else max(
-            ranked.score, ranked.high if math.isfinite(ranked.high) else 0)
+            axes.plot([ranked.low, ranked.high], [place, place], color=theme.TEXT, lw=0.8)
+        ends = [value for value in (ranked.score, ranked.low, ranked.high) if math.isfinite(value)]
+        edge = min(ends) if better else max(ends)
         axes.annotate(text, (edge, place), textcoords="offset points",
                       xytext=(-3 if better else 3, 0), ha="right" if better else "left",
                       va="center", fontsize=6)
     failed = [f"{text} ({ranked.failed})" if text else str(ranked.failed)
-              for text, ranked in ends if ranked.failed]
+              for text, ranked in levels if ranked.failed]
     if failed:
         axes.annotate("× " + ", ".join(failed), (limits[1], place), ha="right", va="center",
-                      fontsize=6, color=theme.end)
+                      fontsize=6, color=theme.END)

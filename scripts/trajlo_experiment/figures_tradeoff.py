@@ -9,8 +9,9 @@ from trajlo_experiment import analysis
 from trajlo_experiment.drawing import (below, error_axis, mark_handles, mark_style, open_frame,
                                        plain_log)
 from trajlo_experiment.figures_sensitivity import panels
+from trajlo_report import names, theme
 
-COST, COST_LABEL = "cpu_ms_per_data_second", "CPU time per second of data [ms]"
+COST, COST_LABEL = "cpu_ms_per_data_second", "processor time [ms per s of data]"
 
 
 def tradeoff(findings, group):
@@ -19,57 +20,58 @@ def tradeoff(findings, group):
     for row in findings.rows:
         if row["group"] == group:
             points.setdefault(row["point"], []).append(row)
-    names = list(points)
-    costs = [analysis.median([row[COST] for row in points[name] if row[COST]]) for name in names]
-    errors = [analysis.median(findings.errors(points[name])) for name in names]
-    usable = [i for i in range(len(names)) if math.isfinite(costs[i]) and math.isfinite(errors[i])]
+    settings = list(points)
+    costs = [analysis.median([row[COST] for row in points[name] if row[COST]])
+             for name in settings]
+    errors = [analysis.median(findings.errors(points[name])) for name in settings]
+    usable = [i for i in range(len(settings)) if math.isfinite(costs[i]) and math.isfinite(errors[i])]
     front = analysis.pareto([costs[i] for i in usable], [errors[i] for i in usable])
-    return names, costs, errors, [usable[i] for i in front]
+    return settings, costs, errors, [usable[i] for i in front]
 
 
-def draw_pareto(findings, theme):
+def draw_pareto(findings):
     """A panel for each scenario; the numbers lead to the table of the page."""
     found = [tradeoff(findings, group) for group in findings.groups]
     if not any(front for *_, front in found):
         return None
     figure, grid = panels(len(findings.groups), 2.4)
-    for axes, group, (names, costs, errors, front) in zip(grid, findings.groups, found):
-        draw_front(axes, findings, names, costs, errors, front, theme)
-        axes.set_title(group)
+    for axes, group, (settings, costs, errors, front) in zip(grid, findings.groups, found):
+        draw_front(axes, findings, settings, costs, errors, front)
+        axes.set_title(names.title(group))
         axes.set_xlabel(COST_LABEL)
     for axes in grid[::3]:
         axes.set_ylabel(findings.label)
-    handles = [Line2D([], [], ls="", marker="o", ms=3, color=theme.stages["segment"], alpha=0.7,
+    handles = [Line2D([], [], ls="", marker="o", ms=3, color=theme.STAGES["segment"], alpha=0.7,
                       label="a setting, median over seeds"),
-               Line2D([], [], marker="o", ms=4, lw=1, color=theme.methods[0],
+               Line2D([], [], marker="o", ms=4, lw=1, color=theme.METHODS[0],
                       label="nothing is better in both")]
     if any(math.isinf(error) for _, _, errors, _ in found for error in errors):
-        handles.append(Line2D([], [], ls="", marker="x", ms=4, color=theme.end, label="fails"))
-    below(figure, handles + mark_handles(findings, findings.marks, theme))
+        handles.append(Line2D([], [], ls="", marker="x", ms=4, color=theme.END, label="fails"))
+    below(figure, handles + mark_handles(findings, findings.marks))
     return figure
 
 
-def draw_front(axes, findings, names, costs, errors, front, theme):
+def draw_front(axes, findings, settings, costs, errors, front):
     costs, errors = np.array(costs), np.array(errors)
     good = np.isfinite(costs) & np.isfinite(errors)
-    axes.plot(costs[good], errors[good], "o", ms=2.6, mew=0, color=theme.stages["segment"],
+    axes.plot(costs[good], errors[good], "o", ms=2.6, mew=0, color=theme.STAGES["segment"],
               alpha=0.7)
     error_axis(axes, errors[good])
     lost = np.isinf(errors) & np.isfinite(costs)
     if lost.any():  # a line without points would take part in the layout
-        axes.plot(costs[lost], np.full(lost.sum(), 0.98), "x", ms=3.5, color=theme.end,
+        axes.plot(costs[lost], np.full(lost.sum(), 0.98), "x", ms=3.5, color=theme.END,
                   clip_on=False, transform=axes.get_xaxis_transform())
-    axes.step(costs[front], errors[front], where="post", color=theme.methods[0], lw=1)
-    axes.plot(costs[front], errors[front], "o", ms=4, color=theme.methods[0])
+    axes.step(costs[front], errors[front], where="post", color=theme.METHODS[0], lw=1)
+    axes.plot(costs[front], errors[front], "o", ms=4, color=theme.METHODS[0])
     for number, index in enumerate(front, 1):
         axes.annotate(str(number), (costs[index], errors[index]), textcoords="offset points",
                       xytext=(-3, -6), ha="right", va="center", fontsize=6,
-                      color=theme.methods[0]).set_in_layout(False)
+                      color=theme.METHODS[0]).set_in_layout(False)
     for name, row in findings.marks.items():
-        index = names.index(row["point"]) if row["point"] in names else None
+        index = settings.index(row["point"]) if row["point"] in settings else None
         if index is not None and good[index]:
             axes.plot(costs[index], errors[index], zorder=5,
-                      **mark_style(findings, name, theme))
+                      **mark_style(findings, name))
     axes.set_xscale("log")
     finite = costs[np.isfinite(costs)]
     axes.set_xlim(finite.min() / 1.12, finite.max() * 1.12)

@@ -46,6 +46,11 @@ class Findings:
                        if row["point"] in by_name}
 
     @property
+    def has_intervals(self):
+        """Whether every scenario has the seeds to say how far results scatter."""
+        return analysis.fewest_seeds(analysis.recordings_of(self.rows)) > 1
+
+    @property
     def sampled(self):
         return self.study.design.kind in designs.SAMPLED
 

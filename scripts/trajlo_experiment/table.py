@@ -11,7 +11,7 @@ from trajlo_batch.places import read_json_if
 FLAGS = ("no_points", "gap", "reverted", "not_converged", "degenerate", "lost")
 COLUMNS = {"points": "points_per_window", "rounds": "rounds_per_window",
            "iterations": "iterations_per_window"}
-LEFT_OUT = ("suite", "configuration", "degenerate", "sequence", "group", "seed", "inlier_share",
+LEFT_OUT = ("cpu_s_per_data_second", "data_s", "suite", "configuration", "degenerate", "sequence", "group", "seed", "inlier_share",
             "version", "folder", "command")
 
 
@@ -58,10 +58,8 @@ def level_values(study, point, row):
     return values
 
 
-def cpu_per_data_second(row):
-    if not row["cpu_s"] or not row["duration_s"]:
-        return None
-    return 1000.0 * row["cpu_s"] / row["duration_s"]
+def milliseconds(seconds):
+    return None if seconds is None else 1000.0 * seconds
 
 
 def repeat_command(plan, run, number, folder):
@@ -91,7 +89,8 @@ def collect(plan):
             "group": run.sequence.group, "seed": run.sequence.seed or None,
             **level_values(study, point, base),
             **{key: value for key, value in base.items() if key not in LEFT_OUT},
-            "cpu_ms_per_data_second": cpu_per_data_second(base),
+            "cpu_ms_per_data_second": milliseconds(results.cpu_per_data_second(
+                base["cpu_s"], base["duration_s"])),
             **window_values(folder), "inlier_share": base["inlier_share"],
             "program": program.get("version"), "program_digest": program.get("digest"),
             "config": f"{run.folder}/result/config.yaml",

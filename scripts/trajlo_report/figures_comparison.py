@@ -2,7 +2,8 @@
 """Figures of a comparison of solvers; each takes the columns of its CSV file and the variants."""
 import numpy as np
 
-from trajlo_report import theme as themes
+from trajlo_report import theme
+from trajlo_report.comparison_words import changes_energy
 
 SMALLEST_M = 1e-16  # solutions that are equal are drawn here
 FAST = 3.0          # bars of stages show variants up to so many times the yardstick's time
@@ -12,11 +13,6 @@ def rows_of(table, variant):
     """The columns of one variant."""
     mask = np.array([name == variant for name in table["variant"]])
     return {key: np.asarray(values)[mask] for key, values in table.items() if key != "variant"}
-
-
-def of_one_energy(variants):
-    """Kernels change the energy itself: its costs and distances do not compare."""
-    return [item for item in variants if "kernel" not in item["set"]]
 
 
 def excess_costs(iterations, variant, steps):
@@ -37,89 +33,116 @@ def legend_below(axes):
     axes.legend(ncol=3, fontsize=5, loc="upper center", bbox_to_anchor=(0.5, -0.22))
 
 
-def draw_costs(iterations, variants, theme, width_in):
-    figure, axes = themes.plt.subplots(figsize=(width_in, 0.95 * width_in),
-                                       constrained_layout=True)
+def cost_curves(iterations, variants, steps=12):
+    """(index, variant, curve) of those that can be drawn: the same energy, and something to lose."""
+    curves = []
     for index, item in enumerate(variants):
-        curve = excess_costs(iterations, item["name"], 12)
+        curve = excess_costs(iterations, item["name"], steps)
         curve = np.where(curve > 0, curve, np.nan)
+        if not changes_energy(item) and np.isfinite(curve).any():
+            curves.append((index, item, curve))
+    return curves
+
+
+def without_curve(iterations, variants):
+    """What the figure of costs leaves out, and why."""
+    shown = {item["name"] for _, item, _ in cost_curves(iterations, variants)}
+    other_energy = [item["name"] for item in variants if changes_energy(item)]
+    settled = [item["name"] for item in variants
+               if item["name"] not in shown and item["name"] not in other_energy]
+    return [(names, why) for names, why in (
+        (other_energy, "their kernels change what is minimised, so that costs do not compare"),
+        (settled, "they are at their lowest cost from the start")) if names]
+
+
+def too_slow(variants):
+    """Those that would make the bars of all others short."""
+    first = variants[0]["lockstep"]["total_ms"]
+    return [item["name"] for item in variants if item["lockstep"]["total_ms"] > FAST * first]
+
+
+def draw_costs(iterations, variants, width_in):
+    figure, axes = theme.plt.subplots(figsize=(width_in, 0.95 * width_in),
+                                       constrained_layout=True)
+    for index, item, curve in cost_curves(iterations, variants):
         axes.semilogy(curve, label=item["name"], marker=".", ms=3,
-                      **themes.method_style(theme, index))
-    axes.set(xlabel="step", ylabel="cost above the lowest (share)")
+                      **theme.method_style(index))
+    axes.set(xlabel="step", ylabel="cost above the lowest, as a share of it")
     legend_below(axes)
     return figure
 
 
-def draw_stages(variants, theme, width_in):
+def draw_stages(variants, width_in):
     """Milliseconds a window: evaluation, linear equations, and what else a solver does."""
     names = [item["name"] for item in variants]
     totals = np.array([item["lockstep"]["total_ms"] for item in variants])
     evaluate = np.array([item["lockstep"]["evaluate_ms"] for item in variants])
     linear = np.array([item["lockstep"]["linear_solve_ms"] for item in variants])
-    fast = totals <= FAST * totals[0]
-    figure, (bars, dots) = themes.plt.subplots(
+    slow = too_slow(variants)
+    fast = np.array([name not in slow for name in names])
+    figure, (bars, dots) = theme.plt.subplots(
         1, 2, figsize=(2 * width_in, 0.16 * width_in + 0.17 * len(names)), sharey=False,
         constrained_layout=True)
     place = np.arange(np.count_nonzero(fast))
     left = np.zeros(len(place))
-    parts = (("residuals and Jacobians", evaluate, theme.methods[0]),
-             ("linear equations", linear, theme.methods[4]),
-             ("other", np.maximum(totals - evaluate - linear, 0), theme.stages["segment"]))
+    parts = (("residuals and Jacobians", evaluate, theme.METHODS[0]),
+             ("linear equations", linear, theme.METHODS[4]),
+             ("other", np.maximum(totals - evaluate - linear, 0), theme.STAGES["segment"]))
     for label, values, color in parts:
         bars.barh(place, values[fast], left=left, color=color, label=label)
         left += values[fast]
     bars.set_yticks(place, [name for name, is_fast in zip(names, fast) if is_fast])
-    bars.set(xlabel="ms a window")
+    bars.set(xlabel="time per window [ms]")
     bars.invert_yaxis()
     bars.legend(fontsize=6, ncol=3, loc="lower left", bbox_to_anchor=(0.0, 1.0))
-    dots.plot(totals / totals[0], np.arange(len(names)), "o", color=theme.methods[0], ms=4)
-    dots.axvline(1.0, color=theme.text, lw=0.6)
+    dots.plot(totals / totals[0], np.arange(len(names)), "o", color=theme.METHODS[0], ms=4)
+    dots.axvline(1.0, color=theme.TEXT, lw=0.6)
     dots.set_yticks(np.arange(len(names)), names)
     dots.set(xlabel=f"time, multiple of {names[0]}", xscale="log")
     dots.invert_yaxis()
     return figure
 
 
-def draw_distances(lockstep, variants, theme, width_in):
+def draw_distances(lockstep, variants, width_in):
     """How far apart solutions of the same window are, as a cumulated histogram."""
-    figure, axes = themes.plt.subplots(figsize=(width_in, 0.95 * width_in),
+    figure, axes = theme.plt.subplots(figsize=(width_in, 0.95 * width_in),
                                        constrained_layout=True)
     for index, item in enumerate(variants[1:], 1):
         distances = np.sort(np.maximum(rows_of(lockstep, item["name"])["from_first_m"], SMALLEST_M))
         share = np.arange(1, len(distances) + 1) / len(distances)
         axes.step(distances, 100 * share, where="post", label=item["name"],
-                  **themes.method_style(theme, index))
+                  **theme.method_style(index))
     axes.set(xscale="log", xlabel=f"distance from the solution of {variants[0]['name']} [m]",
              ylabel="windows [%]", ylim=(0, 101))
     legend_below(axes)
     return figure
 
 
-def draw_points(lockstep, variants, theme, width_in):
+def draw_points(lockstep, variants, width_in):
     """Time of a step against the number of points in the window."""
-    figure, axes = themes.plt.subplots(figsize=(width_in, 0.95 * width_in),
+    figure, axes = theme.plt.subplots(figsize=(width_in, 0.95 * width_in),
                                        constrained_layout=True)
     for index, item in enumerate(variants):
         own = rows_of(lockstep, item["name"])
         tries = np.maximum(own["steps"] + own["rejected_steps"], 1)
-        color = themes.method_style(theme, index)["color"]
+        color = theme.method_style(index)["color"]
         axes.plot(own["points"], own["total_ms"] / tries, "osv^D*"[index // 6 % 6], color=color,
                   ms=2, label=item["name"])
-    axes.set(yscale="log", xlabel="points in the window", ylabel="ms a step")
+    axes.set(yscale="log", xlabel="points in the window", ylabel="time per step [ms]")
     legend_below(axes)
     return figure
 
 
-def draw_free(variants, theme, width_in):
+def draw_free(variants, width_in):
     """Whole runs: processor time, and how far the trajectories part; errors where truth is known."""
     names = [item["name"] for item in variants]
     place = np.arange(len(names))
     errors = [item["free"]["ate_rmse_m"] for item in variants]
     has_errors = any(error is not None for error in errors)
-    figure, grid = themes.plt.subplots(
+    figure, grid = theme.plt.subplots(
         1, 3 if has_errors else 2, sharey=True, constrained_layout=True,
         figsize=(2 * width_in, 0.16 * width_in + 0.17 * len(names)))
-    color = theme.methods[0]
+    color = theme.METHODS[0]
     grid[0].barh(place, [item["free"]["cpu_s"] for item in variants], color=color)
     grid[0].set(xlabel="processor time [s]")
     apart = [max(item["free"]["max_from_first_m"], SMALLEST_M) for item in variants]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """All figures of an evaluation."""
 from trajlo_report import evaluated, figures_errors, figures_path
-from trajlo_report import theme as themes
+from trajlo_report import theme
 
 FIGURES = {
     "trajectory": (figures_path.draw_planes, "Truth and estimates in three planes, aligned"),
@@ -14,17 +14,17 @@ FIGURES = {
 }
 
 
-def draw_all(estimates, theme, folder, formats, dpi, width_in=themes.COLUMN_IN):
+def draw_all(estimates, folder, dpi=250, width_in=theme.COLUMN_IN):
     """Draws what there is to draw into `folder`; returns the paths of the first format, with
     captions and widths for a page."""
     folder.mkdir(parents=True, exist_ok=True)
     drawn = []
     if not evaluated.drawable(estimates):
         return drawn
-    themes.apply(theme)
+    theme.apply()
     for name, (function, caption) in FIGURES.items():
-        figure = function(estimates, theme, width_in)
+        figure = function(estimates, width_in)
         if figure:
-            paths = themes.save(figure, folder / name, formats, dpi)
+            paths = theme.save(figure, folder / name, dpi=dpi)
             drawn.append({"path": paths[0], "caption": caption, "width": int(width_in * 140)})
     return drawn

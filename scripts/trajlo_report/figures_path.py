@@ -6,12 +6,12 @@ import matplotlib.pyplot as plt
 import matplotlib.ticker
 import numpy as np
 
-from trajlo_report import theme as themes
+from trajlo_report import theme
 from trajlo_report.evaluated import (AXES, bounds, drawable, legend_width, longest_truth,
                                      with_gaps)
 
 
-def draw_planes(estimates, theme, width_in=themes.COLUMN_IN):
+def draw_planes(estimates, width_in=theme.COLUMN_IN):
     """Truth and estimates in the planes xy, xz and zy, one scale for all: a third-angle drawing."""
     low, high = bounds(estimates)
     dx, dy, dz = high - low
@@ -37,12 +37,12 @@ def draw_planes(estimates, theme, width_in=themes.COLUMN_IN):
               (place(beside, upper, dz, dy), 2, 1)]
     _, truth = longest_truth(estimates)
     for axes, i, j in panels:
-        axes.plot(truth[:, i], truth[:, j], color=theme.truth, lw=2.2, alpha=0.35, label="truth")
+        axes.plot(truth[:, i], truth[:, j], color=theme.TRUTH, lw=2.2, alpha=0.35, label="truth")
         for index, estimate in drawable(estimates):
             _, positions = with_gaps(estimate.times, estimate.positions)
             axes.plot(positions[:, i], positions[:, j], lw=0.9, label=estimate.name,
-                      **themes.method_style(theme, index))
-        axes.plot(truth[0, i], truth[0, j], "o", ms=3.5, color=theme.start, zorder=5)
+                      **theme.method_style(index))
+        axes.plot(truth[0, i], truth[0, j], "o", ms=3.5, color=theme.START, zorder=5)
         axes.set(xlim=(low[i], high[i]), ylim=(low[j], high[j]))
         axes.xaxis.set_major_locator(ticks(scale * (high - low)[i] / 0.45))
         axes.yaxis.set_major_locator(ticks(scale * (high - low)[j] / 0.25))
@@ -65,7 +65,7 @@ def widest_plane(low, high):
     return sorted(np.argsort(high - low)[-2:])
 
 
-def draw_error_on_path(estimates, theme, width_in=themes.COLUMN_IN):
+def draw_error_on_path(estimates, width_in=theme.COLUMN_IN):
     """Each estimate in its widest plane, coloured by its translation error; one scale for all."""
     items = drawable(estimates)
     low, high = bounds(estimates)
@@ -84,15 +84,15 @@ def draw_error_on_path(estimates, theme, width_in=themes.COLUMN_IN):
     _, truth = longest_truth(estimates)
     lines = None
     for axes, (_, estimate) in zip(grid.flat, items):
-        axes.plot(truth[:, i], truth[:, j], color=theme.truth, lw=0.5, alpha=0.5)
+        axes.plot(truth[:, i], truth[:, j], color=theme.TRUTH, lw=0.5, alpha=0.5)
         positions = estimate.positions[:, [i, j]]
         pieces = np.stack([positions[:-1], positions[1:]], axis=1)
         error = estimate.errors["translation_error_m"]
         lines = matplotlib.collections.LineCollection(
-            pieces, cmap=theme.error_map, norm=norm, lw=2.0, rasterized=len(pieces) > 1000)
+            pieces, cmap=theme.ERROR_MAP, norm=norm, lw=2.0, rasterized=len(pieces) > 1000)
         lines.set_array(0.5 * (error[:-1] + error[1:]))
         axes.add_collection(lines)
-        axes.plot(*truth[0, [i, j]], "o", ms=3.5, color=theme.start, zorder=5)
+        axes.plot(*truth[0, [i, j]], "o", ms=3.5, color=theme.START, zorder=5)
         axes.set(xlim=(low[i], high[i]), ylim=(low[j], high[j]), aspect="equal")
         if len(items) > 1:
             axes.set_title(estimate.name)

@@ -22,21 +22,27 @@ def write_atomically(path, text):
     beside.replace(path)
 
 
-def read_tum(path):
-    """Times (s) and positions (m) of a TUM file; an unfinished last line is left out."""
+def read_poses(path):
+    """Times (s), positions (m) and quaternions (x y z w) of a TUM file; an unfinished last line is
+    left out."""
     rows = []
     for line in pathlib.Path(path).read_text().splitlines():
         values = line.split()
         if len(values) == 8 and not line.startswith("#"):
-            rows.append([float(value) for value in values[:4]])
+            rows.append([float(value) for value in values])
     if not rows:
         raise ReportError(f"{path} holds no poses")
     rows = np.array(rows)
-    return rows[:, 0], rows[:, 1:]
+    return rows[:, 0], rows[:, 1:4], rows[:, 4:]
 
 
-def read_ply(path):
-    """Points of a binary little-endian PLY whose vertices are floats with x, y, z among them."""
+def read_tum(path):
+    """Times (s) and positions (m) of a TUM file."""
+    return read_poses(path)[:2]
+
+
+def read_ply_columns(path):
+    """The float properties of the vertices of a binary little-endian PLY: {name: values}."""
     data = pathlib.Path(path).read_bytes()
     head, _, _ = data.partition(b"end_header\n")
     lines = head.decode("ascii", errors="replace").splitlines()
@@ -44,8 +50,17 @@ def read_ply(path):
         raise ReportError(f"{path} is not a binary little-endian PLY")
     count = next(int(line.split()[2]) for line in lines if line.startswith("element vertex"))
     names = [line.split()[2] for line in lines if line.startswith("property float")]
-    values = np.frombuffer(data, "<f4", count * len(names), len(head) + len(b"end_header\n"))
-    return values.reshape(count, len(names))[:, [names.index(axis) for axis in "xyz"]]
+    begin = len(head) + len(b"end_header\n")
+    if len(data) < begin + 4 * count * len(names):
+        raise ReportError(f"{path} ends early: {count} points were announced")
+    values = np.frombuffer(data, "<f4", count * len(names), begin).reshape(count, len(names))
+    return dict(zip(names, values.T))
+
+
+def read_ply(path):
+    """Points of such a PLY, a row each."""
+    columns = read_ply_columns(path)
+    return np.stack([columns[axis] for axis in "xyz"], axis=1)
 
 
 def read_columns(path):

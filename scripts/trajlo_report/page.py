@@ -7,6 +7,8 @@ import pathlib
 import jinja2
 import PIL.Image
 
+from trajlo_report import names, theme
+
 TYPES = {".svg": "image/svg+xml", ".png": "image/png"}
 
 
@@ -16,11 +18,13 @@ def data_uri(path):
     return f"data:{TYPES[path.suffix]};base64,{base64.b64encode(path.read_bytes()).decode()}"
 
 
-def compact_uri(path):
+def compact_uri(path, most_pixels=1000):
     """The same as WebP, a fifth of the size: for pages with the pictures of hundreds of runs."""
     stream = io.BytesIO()
     with PIL.Image.open(path) as image:
-        image.convert("RGB").save(stream, "WEBP", quality=80)
+        image = image.convert("RGB")
+        image.thumbnail((most_pixels, 2 * most_pixels))
+        image.save(stream, "WEBP", quality=80)
     return f"data:image/webp;base64,{base64.b64encode(stream.getvalue()).decode()}"
 
 
@@ -53,10 +57,11 @@ def flatten(tree, prefix=""):
     return rows
 
 
-def render(template, theme, **values):
+def render(template, **values):
     """The text of templates/<template> with `values` filled in."""
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("trajlo_report"), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.ChainableUndefined)
-    environment.filters.update(number=number, data_uri=data_uri, compact_uri=compact_uri)
+    environment.filters.update(number=number, data_uri=data_uri, compact_uri=compact_uri,
+                               title=names.title)
     return environment.get_template(template).render(theme=theme, **values)

@@ -54,6 +54,7 @@ TEST_F(TrajloRunTest, WritesTheMotionOfTheRecording) {
   EXPECT_GT(json["resources"]["real_time_factor"], 0.0);
   EXPECT_GT(json["resources"]["estimation_ms_per_data_second"]["median"], 0.0);
   EXPECT_THAT(ReadFile(Result("map.ply")), HasSubstr("element vertex"));
+  EXPECT_THAT(ReadFile(Result("view.ply")), HasSubstr("element vertex 30000\n"));
   const std::string windows = ReadFile(Result("windows.csv"));
   EXPECT_EQ(std::count(windows.begin(), windows.end(), '\n'),
             1 + json["windows"]["count"].get<int>());
@@ -64,9 +65,21 @@ TEST_F(TrajloRunTest, TheResultDoesNotDependOnThreads) {
   ASSERT_EQ(Run({"--threads=1"}).exit_code, 0);
   const std::string one = ReadFile(Result("trajectory.tum"));
   const std::string map_of_one = ReadFile(Result("map.ply"));
+  const std::string view_of_one = ReadFile(Result("view.ply"));
   ASSERT_EQ(Run({"--threads=2", "--overwrite"}).exit_code, 0);
   EXPECT_EQ(ReadFile(Result("trajectory.tum")), one);
   EXPECT_EQ(ReadFile(Result("map.ply")), map_of_one);
+  EXPECT_EQ(ReadFile(Result("view.ply")), view_of_one);
+}
+
+TEST_F(TrajloRunTest, WithoutAViewTheResultIsTheSameAndAnEarlierOneGoes) {
+  RoomRecording().Write(input());
+  ASSERT_EQ(Run().exit_code, 0);
+  const std::string with = ReadFile(Result("trajectory.tum"));
+  ASSERT_TRUE(std::filesystem::exists(Result("view.ply")));
+  ASSERT_EQ(Run({"--noview", "--overwrite"}).exit_code, 0);
+  EXPECT_EQ(ReadFile(Result("trajectory.tum")), with);
+  EXPECT_FALSE(std::filesystem::exists(Result("view.ply")));
 }
 
 TEST_F(TrajloRunTest, TheWrittenConfigRepeatsTheRun) {

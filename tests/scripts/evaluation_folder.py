@@ -50,7 +50,7 @@ def write_evaluation(folder, noise_m, diverged=(), with_rotation=True, poses=400
             "rpe": [{"delta": 1.0, "unit": "m", "pairs": 60, "translation_m": statistics(error),
                      "rotation_deg": statistics(rotation) if with_rotation else None}],
             "kitti": None, "time_offset_s": 0.0,
-            "alignment": {"kind": "se3", "T": np.eye(4).tolist(), "scale": 1.0}})
+            "alignment": {"kind": "se3", "T": np.eye(3, 4).tolist(), "scale": 1.0}})
     document = {"estimates": estimates, "truth": {"file": "truth.tum"},
                 "settings": {"alignment": "se3", "max_time_difference_s": 0.01},
                 "versions": {"trajlo": "0.1.0"}, "warnings": []}

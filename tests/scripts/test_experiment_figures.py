@@ -2,17 +2,19 @@
 """Figures and pages of experiments show what happened, also what failed."""
 import math
 import re
+import types
 import unittest
 
 from pretended_experiment import PretendedTest
 
 from trajlo_batch import plan
-from trajlo_experiment import experiment_report, figures_heat, figures_sensitivity, table
-from trajlo_experiment.figures_parallel import height_on_axis
+from trajlo_experiment import (conclusion, experiment_report, figures_heat, figures_sensitivity,
+                               table)
+from trajlo_experiment.figures_parallel import axis_ticks, height_on_axis, spread_ticks
 from trajlo_experiment.figures_tornado import draw_tornado, swings
 from trajlo_experiment.figures_tradeoff import tradeoff
 from trajlo_experiment.findings import Findings
-from trajlo_report import theme as themes
+from trajlo_report import theme
 
 SEQUENCES = """
 sequences:
@@ -61,7 +63,7 @@ class FiguresTest(PretendedTest):
         batch = self.batch(text)
         if finish:
             self.finish(batch, error_of, lambda levels: 1.0 + levels.get("a.b", 1))
-        themes.apply(themes.LIGHT)
+        theme.apply()
         return Findings(batch.suite, table.collect(batch))
 
     def test_a_cell_is_the_median_over_its_seeds_in_centimetres(self):
@@ -100,7 +102,7 @@ class FiguresTest(PretendedTest):
 
     def test_a_tornado_has_the_widest_swing_on_top(self):
         findings = self.findings(ONE_AT_A_TIME)
-        axes, = draw_tornado(findings, themes.LIGHT).axes
+        axes, = draw_tornado(findings).axes
         labels = [label.get_text() for label in axes.get_yticklabels()]
         self.assertEqual(labels, ["b", "rules: theirs", "sigma [m]"])
 
@@ -126,7 +128,7 @@ class FiguresTest(PretendedTest):
 
     def test_where_nothing_failed_there_is_no_figure_of_failures(self):
         findings = self.findings(GRID, lambda *_: 0.1)
-        self.assertIsNone(figures_sensitivity.draw_failures(findings, themes.LIGHT))
+        self.assertIsNone(figures_sensitivity.draw_failures(findings))
 
     def report(self, text, error_of=bowl):
         batch = self.batch(text)
@@ -134,10 +136,71 @@ class FiguresTest(PretendedTest):
         experiment_report.write_report(batch)
         self.assert_self_contained(self.places.output / "report.html")
         drawn = {path.name for path in (self.places.output / "figures").iterdir()}
-        self.assertEqual({name.replace(".svg", ".png") for name in drawn},
-                         {name for name in drawn if name.endswith(".png")})
+        stems = {name.partition(".")[0] for name in drawn}
+        self.assertEqual({f"{stem}.{kind}" for stem in stems for kind in theme.FORMATS},
+                         drawn)
         return ({name.removesuffix(".png") for name in drawn if name.endswith(".png")},
                 re.sub(r"base64,[^\"]*", "", (self.places.output / "report.html").read_text()))
+
+    def test_one_seed_gives_no_intervals(self):
+        once = GRID.replace("seeds: [1, 2, 3]", "seeds: [1]")
+        _, text = self.report(once)
+        self.assertIn("have one seed only", text)
+        self.assertNotIn("95 %", text)
+        self.assertNotIn("wins", text)
+        findings = self.findings(once)
+        self.assertFalse(findings.has_intervals)
+        for ranked in findings.ranked():
+            self.assertTrue(math.isnan(ranked.low) and math.isnan(ranked.best_share))
+        axes, = draw_tornado(self.findings(
+            ONE_AT_A_TIME.replace("seeds: [1, 2, 3]", "seeds: [1]"))).axes
+        self.assertEqual([line for line in axes.lines if len(set(line.get_ydata())) == 1
+                          and len(line.get_xdata()) > 1 and set(line.get_xdata()) != {1.0}], [])
+        _, text = self.report(GRID)
+        self.assertIn("95 % interval", text)
+
+    def test_the_conclusion_names_the_best_setting_and_the_factor_that_matters(self):
+        sentences = conclusion.sentences(self.findings(GRID))
+        self.assertEqual(sentences[0], "The best of 7 settings is σ = 1 m, kernel = none.")
+        self.assertIn("Its error is as high as that of “paper”", sentences[1])
+        self.assertIn("other seeds might well turn that around", sentences[1])
+        self.assertIn("σ [m] matters most: between its values the mean error differs by a factor "
+                      "of 2.0.", sentences)
+        self.assertIn("2 of 7 settings failed on at least one recording.", sentences)
+
+    def test_the_best_may_be_the_reference_itself(self):
+        worse = self.findings(GRID, lambda levels, *_: 0.01 if levels == {
+            "a.sigma_m": 1, "a.kernel": "huber"} else 0.02)
+        self.assertEqual(conclusion.sentences(worse)[0], "The best of 7 settings is σ = 1 m, "
+                         "kernel = huber. That is “paper”.")
+
+    def test_sigmas_that_vary_while_the_weights_tune_themselves_are_no_sweep(self):
+        def plan_of(options, varied):
+            factors = [types.SimpleNamespace(keys={key: None}, settings={}) for key in varied]
+            return types.SimpleNamespace(runs=[types.SimpleNamespace(options=options)],
+                                         suite=types.SimpleNamespace(factors=factors))
+
+        tuned, fixed = "weight_balance: {enabled: true}", "weight_balance: {enabled: false}"
+        sigma = "weights.registration_sigma_m"
+        self.assertIn(f"{sigma} varied while", conclusion.warnings(plan_of(tuned, [sigma]))[0])
+        for options, varied in ((fixed, [sigma]), (tuned, ["weights.kernel"]),
+                                (tuned, [sigma, "weight_balance.enabled"]), ("", [sigma])):
+            self.assertEqual(conclusion.warnings(plan_of(options, varied)), [])
+
+    def test_ticks_of_the_parallel_plot_never_lie_on_each_other(self):
+        ticks = [(0.0, "a"), (0.01, "b"), (0.5, "c"), (0.55, "d"), (0.97, "e"), (1.0, "f")]
+        self.assertEqual([text for _, text in spread_ticks(ticks, 0.07)], ["a", "c", "f"])
+        findings = self.findings(SAMPLED)
+        for factor in findings.study.factors:
+            heights = sorted(height for height, _ in axis_ticks(findings, factor))
+            self.assertTrue(all(high - low >= 0.07 for low, high in zip(heights, heights[1:])))
+
+    def test_figures_have_titles_for_people(self):
+        drawn, _ = self.report(GRID)
+        for name in drawn - {"parallel"}:
+            text = (self.places.output / "figures" / f"{name}.svg").read_text()
+            self.assertIn("Hall, OS1-16", text)
+            self.assertNotIn("hall_os1_16", text)
 
     def test_a_grid_has_all_figures_but_the_tornado(self):
         drawn, text = self.report(GRID)

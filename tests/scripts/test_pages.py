@@ -3,12 +3,15 @@
 import json
 import subprocess
 import unittest
+import unittest.mock
 
+import numpy as np
 from evaluation_folder import write_evaluation
+from result_folder import BEGIN_S, on_walls, write_ply, write_result
 from support import SCRIPTS, FolderTest
 
-from trajlo_report import evaluated, figures_errors, figures_evaluation, files, page
-from trajlo_report import theme as themes
+from trajlo_report import (evaluated, figures_errors, figures_evaluation, files, names, page,
+                           run_summary, theme, view)
 
 
 class EvaluationPageTest(FolderTest):
@@ -18,14 +21,14 @@ class EvaluationPageTest(FolderTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.folder / "report.html"
 
-    def test_all_figures_are_there_as_svg_and_png_and_the_page_holds_them(self):
+    def test_all_figures_are_there_in_all_formats_and_the_page_holds_them(self):
         write_evaluation(self.folder, {"one": 0.01, "two": 0.2})
         report = self.draw()
         names = {path.name for path in (self.folder / "figures").iterdir()}
         drawn = set(figures_evaluation.FIGURES) - {"kitti_lengths"}  # the path is too short
-        self.assertEqual(names, {f"{name}.{kind}" for name in drawn for kind in ("svg", "png")})
+        self.assertEqual(names, {f"{name}.{kind}" for name in drawn for kind in theme.FORMATS})
         self.assert_self_contained(report)
-        self.assertEqual(report.read_text().count("data:image/svg+xml"), len(names) / 2)
+        self.assertEqual(report.read_text().count("data:image/svg+xml"), len(names) / 3)
 
     def test_a_diverged_estimate_is_said_to_be_one_and_does_not_shrink_the_others(self):
         write_evaluation(self.folder, {"good": 0.01, "lost": 0.1}, diverged=("lost",))
@@ -37,20 +40,20 @@ class EvaluationPageTest(FolderTest):
     def test_kittis_errors_by_length_are_drawn_where_there_are_some(self):
         write_evaluation(self.folder, {"one": 0.01})
         _, estimates = files.read_evaluation(self.folder)
-        self.assertIsNone(figures_errors.draw_kitti_lengths(estimates, themes.LIGHT))
+        self.assertIsNone(figures_errors.draw_kitti_lengths(estimates))
         estimates[0].metrics["kitti"] = {"per_length": [
             {"length_m": 100.0, "segments": 5, "translation_percent": 0.5,
              "rotation_deg_per_m": 0.001},
             {"length_m": 200.0, "segments": 0, "translation_percent": None,
              "rotation_deg_per_m": None}]}
-        figure = figures_errors.draw_kitti_lengths(estimates, themes.LIGHT)
+        figure = figures_errors.draw_kitti_lengths(estimates)
         self.assertEqual(list(figure.axes[0].lines[0].get_xdata()), [100.0])
 
     def test_a_truth_without_rotation_leaves_that_panel_out(self):
         write_evaluation(self.folder, {"one": 0.01}, with_rotation=False)
         _, estimates = files.read_evaluation(self.folder)
         self.assertFalse(evaluated.has_rotation(estimates[0]))
-        figure = figures_errors.draw_over_time(estimates, themes.LIGHT)
+        figure = figures_errors.draw_over_time(estimates)
         self.assertEqual(len(figure.axes), 4)
 
     def test_an_estimate_without_pairs_is_named_and_not_drawn(self):
@@ -58,9 +61,15 @@ class EvaluationPageTest(FolderTest):
         (self.folder / "errors_none.csv").unlink()
         self.assertIn("none has no pairs with the truth", self.draw().read_text())
 
-    def test_the_dark_theme_is_self_contained_as_well(self):
+    def test_figures_as_wide_as_a_page_have_text_that_can_be_edited(self):
         write_evaluation(self.folder, {"one": 0.01})
-        self.assert_self_contained(self.draw("--theme", "dark", "--width", "page"))
+        self.assert_self_contained(self.draw("--width", "page"))
+        svg = (self.folder / "figures" / "over_time.svg").read_text()
+        self.assertRegex(svg, r"<text[^>]*>time \[s\]</text>")
+        pdf = (self.folder / "figures" / "over_time.pdf").read_bytes()
+        self.assertIn(b"/FontFile2", pdf)  # TrueType, not outlines
+        self.draw("--width", "page")
+        self.assertEqual((self.folder / "figures" / "over_time.pdf").read_bytes(), pdf)
 
     def test_a_folder_that_is_no_evaluation_is_named(self):
         done = subprocess.run([SCRIPTS / "draw_evaluation.py", self.folder], capture_output=True,
@@ -78,26 +87,89 @@ class EvaluationPageTest(FolderTest):
 
 
 class RunPageTest(FolderTest):
-    def test_a_run_that_left_nothing_still_has_a_page(self):
-        done = subprocess.run([SCRIPTS / "draw_run.py", self.folder], capture_output=True,
-                              text=True, check=False)
+    def draw(self, *arguments):
+        done = subprocess.run([SCRIPTS / "draw_run.py", self.folder, *arguments],
+                              capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
+        return (self.folder / "run.html").read_text()
+
+    def test_the_page_begins_with_what_people_ask_for(self):
+        write_result(self.folder)
+        text = self.draw()
+        self.assert_self_contained(self.folder / "run.html")
+        top = text[text.index("<h1>"):text.index("<h2>")]
+        for said in ("Office, OS0-64", "The run ended well.", "10.0 s", "19 of 20 scans",
+                     "12.3 m", "0.30 s", "gap 1, not converged 2", "Warning: a scan is missing"):
+            self.assertIn(said, top)
+        self.assertNotIn("resources.cpu_s", top)
+        self.assertIn("resources.cpu_s", text)  # below
+
+    def test_numbers_agree_with_the_evaluation(self):
+        write_result(self.folder, seconds=40)
+        write_evaluation(self.folder / "evaluation", {"one": 0.2})
+        _, estimates = files.read_evaluation(self.folder / "evaluation")
+        rmse = estimates[0].metrics["ate"]["translation_m"]["rmse"]
+        self.assertIn(f"<dt>{100 * rmse:.1f} cm</dt>",
+                      self.draw("--evaluation", self.folder / "evaluation"))
+
+    def test_points_can_be_fewer_and_not_none(self):
+        write_result(self.folder)
+        self.assertIn('"count": 77, ', self.draw("--points", "77"))
+        done = subprocess.run([SCRIPTS / "draw_run.py", self.folder, "--points", "0"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--points must be at least 1", done.stderr)
+
+    def test_without_its_library_the_page_says_what_to_install(self):
+        with unittest.mock.patch.object(view, "THREE", self.folder / "nothing"):
+            self.assertIn("libjs-three", view.missing_library())
+
+    def test_a_run_that_left_nothing_still_has_a_page(self):
+        self.draw()
         self.assertIn("There is no trajectory", (self.folder / "run.html").read_text())
         self.assert_self_contained(self.folder / "run.html")
 
     def test_a_trajectory_that_was_cut_off_is_drawn_as_far_as_it_goes(self):
         lines = [f"{0.1 * i} {i} 0 0 0 0 0 1" for i in range(30)]
         self.write("trajectory.tum", "\n".join(lines) + "\n3.0 30 0")
-        subprocess.run([SCRIPTS / "draw_run.py", self.folder, "--theme", "light"], check=True,
-                       capture_output=True)
+        self.assertIn("There is no map", self.draw())
         self.assertTrue((self.folder / "figures" / "windows.png").is_file())
-        self.assertIn("There is no map", (self.folder / "run.html").read_text())
+
+    def test_an_estimate_that_exploded_does_not_take_the_page_along(self):
+        result = write_result(self.folder)
+        poses = (result / "trajectory.tum").read_text().splitlines()
+        poses += ["1700000011 1e300 2 3 0 0 0 1", "1700000012 nan 2 3 0 0 0 1"]
+        (result / "trajectory.tum").write_text("\n".join(poses) + "\n")
+        points = on_walls(np.random.default_rng(1), 500)
+        points[::7] = np.inf
+        write_ply(result / "view.ply", {
+            **dict(zip("xyz", points.T)), "intensity": np.zeros(500), "t_s": np.zeros(500)},
+            f"comment begin_s {BEGIN_S:.9f}")
+        self.assertIn("2 poses lie more than 1000 km from the start", self.draw())
+
+    def test_what_made_a_run_fail_stands_on_top(self):
+        lost = {"exit": {"code": 4, "reason": "lost", "message": "lost at 1700000003.5 s"},
+                "result": {"begin_s": "1700000000.250", "lost_at_s": "1700000003.500"}}
+        self.assertEqual(run_summary.verdict(lost), "The estimator got lost 3.2 s after the start: "
+                         "do not trust poses from there on.")
+        for exit_, said in (({"code": 4, "reason": "failed", "message": "no memory"},
+                             "do not trust poses from there on. No memory."),
+                            ({"code": 0, "reason": "running", "message": ""}, "did not finish"),
+                            ({"code": 2, "reason": "input_unreadable", "message": "no file"},
+                             "The run failed: input_unreadable. No file.")):
+            self.assertIn(said, run_summary.verdict({"exit": exit_}))
 
 
 class PageTest(unittest.TestCase):
     def test_numbers_are_short_and_small_ones_keep_their_digits(self):
         shown = [page.number(value) for value in (0.1234, 0.00012, 12, None, float("nan"), True)]
         self.assertEqual(shown, ["0.123", "0.00012", "12", "–", "–", "True"])
+
+    def test_scenarios_have_titles_and_the_names_of_datasets_stay(self):
+        for name, title in (("hall_os1_16x2-seed3", "Hall, 2 × OS1-16, seed 3"),
+                            ("car_park_os1_128", "Car park, OS1-128"), ("eee_01", "eee_01"),
+                            ("spin_avia", "Spin, Avia"), ("00", "00"), ("a_b-seed2", "a_b-seed2")):
+            self.assertEqual(names.title(name), title)
 
     def test_no_line_is_drawn_over_a_gap(self):
         times, values = evaluated.with_gaps([0, 0.1, 0.2, 5.0, 5.1], [1, 2, 3, 4, 5])

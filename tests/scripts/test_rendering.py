@@ -53,7 +53,7 @@ class RenderingTest(FolderTest):
         subprocess.run([SCRIPTS / "draw_run.py", self.folder / "result", "--evaluation",
                         self.evaluated()], check=True, capture_output=True)
         seen = self.probe(self.folder / "result" / "run.html", "--window-size=520,900")
-        self.assertEqual((seen["images"], seen["broken"], seen["outside"]), (6, 0, 0))
+        self.assertEqual((seen["images"], seen["broken"], seen["outside"]), (7, 0, 0))
         self.assertLessEqual(seen["overflow"], 0)
 
 

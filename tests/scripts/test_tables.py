@@ -138,10 +138,10 @@ class SuiteTableTest(unittest.TestCase):
         self.assertFalse(table.lines[0].cells[0].best)
 
     def test_speed_has_a_table_without_marks(self):
-        rows = [{**row("ours", "eee_01", 0.1), "times_real_time": 12.34},
-                {**row("theirs", "eee_01", 0.1), "times_real_time": 2.0}]
+        rows = [{**row("ours", "eee_01", 0.1), "cpu_s_per_data_second": 0.1234},
+                {**row("theirs", "eee_01", 0.1), "cpu_s_per_data_second": 2.0}]
         table = tables.speed_table(make_suite(configurations=("ours", "theirs")), rows)
-        self.assertEqual([line.cells[0].text for line in table.lines], ["12.3", "2.0"])
+        self.assertEqual([line.cells[0].text for line in table.lines], ["0.12", "2.00"])
         self.assertFalse(any(line.cells[0].best for line in table.lines))
 
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/odometry/sensing/turn_up.h"
+
 namespace trajlo {
 namespace {
 
@@ -12,14 +14,6 @@ constexpr std::int64_t kUnseen = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max();
 
 std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
-
-/// Turns the ray up by `angle_rad` about the horizontal axis p x z, which is perpendicular to it.
-Eigen::Vector3f TurnUp(const Eigen::Vector3f& p, float angle_rad) {
-  const Eigen::Vector3f axis = p.cross(Eigen::Vector3f::UnitZ());
-  const float norm = axis.norm();
-  if (norm < 1e-6F) return p;
-  return p * std::cos(angle_rad) + (axis / norm).cross(p) * std::sin(angle_rad);
-}
 
 /// Keeps `count` points at even distances in the order of the list.
 void ThinEvenly(std::size_t count, std::vector<SegmentPoint>* points) {

@@ -32,7 +32,8 @@ TEST(ResultFolder, NewEmptyAndForeignFoldersAreFine) {
 }
 
 TEST(ResultFolder, AnyFileOfAnEarlierResultNeedsOverwrite) {
-  for (const char* name : {"run.json", "trajectory.tum", "map.ply", "windows.csv", "config.yaml"}) {
+  for (const char* name :
+       {"run.json", "trajectory.tum", "map.ply", "view.ply", "windows.csv", "config.yaml"}) {
     const TempFolder temp;
     WriteFile(temp / name, "old");
     EXPECT_THAT(CheckError(ResultFolder(temp.path())), HasSubstr("--overwrite")) << name;

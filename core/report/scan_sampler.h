@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/trajectory/trajectory.h"
+
+namespace trajlo {
+
+struct ScanSamplingOptions {
+  /// The points of so much time are seen together: a sweep of most LiDARs.
+  std::int64_t moment_ns = 100'000'000;
+  /// With the points of a moment, this bounds the memory however long the run is.
+  std::size_t max_moments = 300;
+  std::size_t points_per_moment = 2500;
+};
+
+/// One return at the place where it was measured.
+struct WorldPoint {
+  Eigen::Vector3f p_world_m;
+  float intensity;
+  std::int64_t moment_ns;  ///< When the moment began in which it was measured.
+};
+
+/// Keeps a thinned choice of what the LiDARs see, to be shown when the run is over: moments at even
+/// distances over the whole run, and of each the points of all LiDARs, up to a number. While the
+/// run grows the distance between moments doubles and every other one is dropped.
+///
+/// Points are drawn with probabilities in proportion to their range, since there are so many more
+/// of them near the sensor. The choice depends on nothing but the scans.
+class ScanSampler {
+ public:
+  /// Points are used that the estimator uses (by range, without NaN), where it takes them to be.
+  explicit ScanSampler(const SegmenterOptions& sensing, const ScanSamplingOptions& options = {})
+      : sensing_(sensing), options_(options) {}
+
+  void Note(const LidarScan& scan);
+
+  /// The points kept so far that `trajectory` covers, deskewed, moment by moment.
+  std::vector<WorldPoint> Deskew(const Trajectory& trajectory) const;
+
+ private:
+  struct Kept {
+    Eigen::Vector3f p_body_m;
+    float intensity;
+    std::int64_t t_ns;
+    float key;  ///< Those with the smallest are kept.
+  };
+  using Moment = std::vector<Kept>;
+
+  std::optional<Eigen::Vector3f> InBody(const LidarPoint& point, const SE3& T_body_lidar) const;
+  void Thin(Moment* moment) const;
+  void DropEveryOther();
+
+  SegmenterOptions sensing_;
+  ScanSamplingOptions options_;
+  std::optional<std::int64_t> origin_ns_;
+  std::int64_t stride_ = 1;  ///< Moments from one that is kept to the next.
+  std::map<std::int64_t, Moment> moments_;
+};
+
+}  // namespace trajlo

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""What a comparison of solvers says, in sentences: conclusions, and what figures leave out."""
+import pathlib
+
+from trajlo_report import files, run_summary
+
+SAME_M = 1e-6  # as trajlo_compare_solvers: trajectories that are nearer count as the same
+
+
+def listed(names):
+    """ "a, b and c" """
+    names = list(names)
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def significant(value):
+    """Two digits, without an exponent."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+def small_length(metres):
+    """Lengths down to those of rounding."""
+    if metres <= 1e-9:
+        return "≤ 1 nm"
+    for unit, size in (("nm", 1e-9), ("µm", 1e-6), ("mm", 1e-3)):
+        if metres < 999.5 * size and metres < 0.01:
+            return f"{significant(metres / size)} {unit}"
+    return run_summary.length(metres)
+
+
+def factor(value):
+    return f"{value:.0f}" if value >= 10 else f"{value:.1f}"
+
+
+def agreement(items, distance_of, what):
+    """Which agree with the first, and how far the farthest is from it."""
+    first, others = items[0]["name"], items[1:]
+    if not others:
+        return []
+    same = [item["name"] for item in others if distance_of(item) <= SAME_M]
+    far = max(others, key=distance_of)
+    count = "All" if len(same) == len(others) else f"{len(same)} of {len(others)}"
+    text = f"{count} {what} that of {first} to within a micrometre"
+    if len(same) < len(others):
+        text += f"; the farthest, {far['name']}, differs by {small_length(distance_of(far))}"
+    return [text + "."]
+
+
+def changes_energy(variant):
+    """Kernels change the energy itself: costs, times and solutions do not compare."""
+    return "kernel" in variant["set"]
+
+
+def of_windows(lockstep):
+    alike = [item for item in lockstep if not changes_energy(item)]
+    if len(alike) < 2:
+        return []
+    first = alike[0]
+    fastest = min(alike, key=lambda item: item["lockstep"]["total_ms"])
+    slowest = max(alike, key=lambda item: item["lockstep"]["total_ms"])
+    least, most = fastest["lockstep"]["total_ms"], slowest["lockstep"]["total_ms"]
+    text = f"{fastest['name']} solves a window fastest, in {significant(least)} ms"
+    if fastest is not first:
+        text += f" ({first['name']} takes {factor(first['lockstep']['total_ms'] / least)} × as long)"
+    said = [f"{text}; {slowest['name']} is slowest, {factor(most / least)} × as long.",
+            *agreement(alike, lambda item: item["lockstep"]["max_from_first_m"],
+                       "find a solution that equals")]
+    others = [item["name"] for item in lockstep if changes_energy(item)]
+    if others:
+        said.append(f"{listed(others)} minimise something else, and are left out of these two "
+                    "sentences.")
+    return said
+
+
+def of_runs(free):
+    if len(free) < 2:
+        return []
+    said = agreement(free, lambda item: item["free"]["max_from_first_m"],
+                     "end with a trajectory that equals")
+    lost = [item["name"] for item in free if item["free"].get("lost_at_s")]
+    if lost:
+        said.append(f"{listed(lost)} got lost.")
+    errors = {item["name"]: item["free"]["ate_rmse_m"] for item in free
+              if item["free"].get("ate_rmse_m") is not None}
+    if len(errors) > 1:
+        best, worst = min(errors, key=errors.get), max(errors, key=errors.get)
+        if errors[worst] < 1.02 * errors[best]:
+            said.append(f"The position errors are alike ({small_length(errors[best])}).")
+        else:
+            said.append(f"Position errors reach from {small_length(errors[best])} ({best}) to "
+                        f"{small_length(errors[worst])} ({worst}).")
+    return said
+
+
+def since_begin(folder, item):
+    """When a run left that of the first variant, in seconds after its begin."""
+    at = item["free"].get("parts_at_s")
+    if at is None:
+        return None
+    times, _ = files.read_tum(pathlib.Path(folder) / item["free"]["trajectory"])
+    # The begin is not worth more digits than the time of a pose.
+    return max(float(at) - times[0], 0.0)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+"""Names for people: `hall_os1_16` is "Hall, OS1-16"."""
+import re
+
+# How makers write their sensors: a pattern over the words of a name, and its text.
+SENSORS = (
+    (r"os(\d) (\d+)x(\d)", r"\3 × OS\1-\2"), (r"os(\d) (\d+)", r"OS\1-\2"),
+    (r"vlp(\d+)", r"VLP-\1"), (r"hdl(\d+)", r"HDL-\1"), (r"xt(\d+)", r"PandarXT-\1"),
+    (r"mid(\d+)", r"MID-\1"), (r"avia", "Avia"), (r"hilti", "OS0-64 and MID-70"),
+    (r"kitti", "KITTI's format"))
+
+
+MARK = " †"  # of a scenario that is degenerate by construction
+
+
+def scenario_title(name):
+    """A scenario's name, the sensor after a comma; other names are left as they are."""
+    words = name.replace("_", " ")
+    for pattern, text in SENSORS:
+        match = re.fullmatch(rf"(.+) {pattern}", words)
+        if match:
+            place = match.group(1)
+            sensor = re.sub(rf"^.+ {pattern}$", text, words)
+            return f"{place[0].upper()}{place[1:]}, {sensor}"
+    return name
+
+
+def title(name):
+    """A sequence: a scenario, perhaps with the seed that "-seed2" says, perhaps with a mark."""
+    plain = name.removesuffix(MARK)
+    scenario, _, seed = plain.partition("-seed")
+    known = scenario_title(scenario)
+    if known == scenario:
+        return name
+    return (f"{known}, seed {seed}" if seed else known) + name[len(plain):]

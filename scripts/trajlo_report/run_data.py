@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+"""What a run left in its folder, ready to be drawn: all in one frame."""
+import dataclasses
+import pathlib
+
+import numpy as np
+
+from trajlo_report import files, view_cloud, view_path
+from trajlo_report.frames import Frame, estimate_of, frame_of
+
+
+@dataclasses.dataclass
+class RunData:
+    times: np.ndarray       # s
+    positions: np.ndarray   # N x 3, m
+    rotations: np.ndarray   # N x 3 x 3, of the body
+    windows: dict           # columns of windows.csv
+    cloud: view_cloud.Cloud  # or None
+    frame: Frame
+    estimate: files.Estimate  # the evaluation of this run, or None
+    missing: list           # a sentence for each file that is not there
+
+    @property
+    def begin(self):
+        return self.times[0]
+
+    @property
+    def flags(self):
+        return view_path.flagged_stretches(self.windows, self.begin)
+
+    @property
+    def is_evaluated(self):
+        return self.estimate is not None and len(self.estimate.errors.get("t_s", ())) > 1
+
+
+def rotation_matrices(quaternions):
+    """N x 3 x 3 of N x (x y z w)."""
+    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
+    return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
+                     2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+                     2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+                    axis=1).reshape(-1, 3, 3)
+
+
+def drawable(times, positions, quaternions, missing):
+    """Without poses of an estimate that exploded; `missing` is told of them."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        near = np.linalg.norm(positions - positions[0], axis=1) < view_cloud.FARTHEST_M
+    if not near.any():
+        raise files.ReportError("The trajectory has no pose that can be drawn")
+    if not near.all():
+        missing.append(f"{np.count_nonzero(~near)} poses lie more than {view_cloud.FARTHEST_M / 1000:.0f} km "
+                       "from the start or nowhere, and are not drawn.")
+    return times[near], positions[near], quaternions[near]
+
+
+def load(result, estimates=(), budget=view_cloud.BUDGET):
+    """Reads a folder of trajlo_run; of one that was interrupted, what there is. Throws ReportError
+    where there is no trajectory."""
+    result = pathlib.Path(result)
+    if not (result / "trajectory.tum").is_file():
+        raise files.ReportError(f"There is no trajectory in {result}")
+    missing = []
+    times, positions, quaternions = drawable(*files.read_poses(result / "trajectory.tum"), missing)
+    estimate = estimate_of(result, estimates)
+    frame = frame_of(estimate)
+    cloud = view_cloud.read_cloud(result, times[0], budget)
+    if cloud:
+        cloud.points = frame.place(cloud.points)
+    else:
+        missing.append("There is no map.")
+    windows = {}
+    if (result / "windows.csv").is_file():
+        windows = files.read_columns(result / "windows.csv")
+    return RunData(times, frame.place(positions), frame.turn(rotation_matrices(quaternions)),
+                   windows, cloud, frame, estimate, missing)

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""The trajectory of the 3-D view: where the body was, how fast, and how well it was known."""
+import dataclasses
+
+import numpy as np
+
+MOST_POSES = 20_000
+SPEED_OVER_S = 0.2  # over less, the noise of the poses looks like speed
+
+
+@dataclasses.dataclass
+class Quantity:
+    """One value for each pose, by which the path can be coloured; NaN where it is not known."""
+    key: str
+    label: str
+    unit: str
+    values: np.ndarray
+    colors: str          # a colour map of matplotlib
+    digits: int          # behind the point
+    is_log: bool = False
+
+    def bounds(self):
+        known = self.values[np.isfinite(self.values)]
+        if not len(known):
+            return 0.0, 1.0
+        low, high = np.percentile(known, [1, 99])
+        low = 0.0 if self.key in ("speed", "error") else float(low)
+        return (low, float(high)) if high > low else (low, low + max(abs(low), 1e-3))
+
+
+def speeds(times, positions):
+    """Speed (m/s) over a short time around each pose."""
+    def at(when):
+        when = np.clip(when, times[0], times[-1])
+        return when, np.stack([np.interp(when, times, positions[:, i]) for i in range(3)], axis=1)
+
+    before, from_here = at(times - SPEED_OVER_S / 2)
+    after, to_here = at(times + SPEED_OVER_S / 2)
+    span = np.maximum(after - before, 1e-9)
+    return np.linalg.norm(to_here - from_here, axis=1) / span
+
+
+def in_gaps(times, known_times, most_s=1.0):
+    """Where the nearest known time is too far to say anything."""
+    index = np.clip(np.searchsorted(known_times, times), 1, max(len(known_times) - 1, 1))
+    near = np.minimum(np.abs(times - known_times[np.minimum(index, len(known_times) - 1)]),
+                      np.abs(times - known_times[index - 1]))
+    return near > most_s
+
+
+def interpolated(times, known_times, values):
+    known = np.isfinite(known_times) & np.isfinite(values)
+    if not known.any():
+        return np.full(len(times), np.nan)
+    found = np.interp(times, known_times[known], values[known])
+    found[in_gaps(times, known_times[known])] = np.nan
+    return found
+
+
+def error_quantity(times, estimate):
+    error = interpolated(times, estimate.times, estimate.errors["translation_error_m"])
+    known = error[np.isfinite(error)]
+    in_cm = len(known) and np.percentile(known, 99) < 1.0
+    return Quantity("error", "position error", "cm" if in_cm else "m",
+                    100 * error if in_cm else error, "viridis_r", 2)
+
+
+def quantities(times, positions, windows, estimate):
+    """What there is to colour the path by."""
+    found = []
+    if estimate is not None and len(estimate.errors.get("t_s", ())) > 1:
+        found.append(error_quantity(times, estimate))
+    found.append(Quantity("speed", "speed", "m/s", speeds(times, positions), "plasma",
+                          2))
+    if len(windows.get("end_s", ())):
+        found.append(Quantity("inliers", "points with a plane", "%", interpolated(
+            times, windows["end_s"], 100 * windows["inlier_share"]), "viridis", 0))
+        found.append(Quantity("eigenvalue", "information in the weakest direction", "per point",
+                              interpolated(times, windows["end_s"], np.maximum(
+                                  windows["smallest_eigenvalue"], 1e-6)), "viridis", 4, True))
+    return [item for item in found if np.isfinite(item.values).any()]
+
+
+def flagged_stretches(windows, begin_s):
+    """[{from, to, names}], seconds after the begin, of windows that say something is not right.
+
+    A window speaks for its newest segment: the time since the window before."""
+    ends = windows.get("end_s", ())
+    names = windows.get("flag_names", [""] * len(ends))
+    stretches = []
+    if not len(ends) or isinstance(names, np.ndarray):  # a column of nothing is read as numbers
+        return stretches
+    for index, flags in enumerate(names):
+        if not flags:
+            continue
+        begin = ends[index - 1] if index else windows["begin_s"][0]
+        begin, end = float(begin - begin_s), float(ends[index] - begin_s)
+        flags = flags.replace("_", " ").split("|")
+        last = stretches[-1] if stretches else None
+        if last and last["names"] == flags and begin - last["to"] < 1e-6:
+            last["to"] = end
+        else:
+            stretches.append({"from": begin, "to": end, "names": flags})
+    return stretches
