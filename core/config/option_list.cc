@@ -15,7 +15,6 @@ std::vector<Option> BindOptions(RunConfig* config) {
   BindSensing(&odometry->segmenter, &binder);
   BindAdaptiveInterval(&odometry->adaptive_interval, &binder);
   BindMap(&odometry->map, &binder);
-  BindAssociation(&odometry->association, &binder);
   BindThreshold(&odometry->threshold, &binder);
   BindWeights(&odometry->weights, &binder);
   BindWeightBalance(&odometry->weight_balance, &binder);
@@ -34,11 +33,9 @@ std::string SectionDoc(const std::string& section) {
       {"segmenter", "How the stream of points is cut into segments and thinned."},
       {"adaptive_interval", "How the length of segments follows the motion."},
       {"map", "The local map that points are registered to."},
-      {"association", "How a point finds its plane."},
-      {"association.plane", "When neighbours make a plane."},
+      {"map.plane", "When neighbours make a plane."},
       {"threshold",
-       "How far off predictions are taken to be: it sets how far associations reach "
-       "and how wide the robust kernel is."},
+       "How far off predictions are taken to be: it sets how wide the robust kernel is."},
       {"weights", "The weights of the energy."},
       {"weight_balance", "How the ratio between geometry and smoothness finds itself."},
       {"solver", "How a window is solved."},

@@ -79,8 +79,8 @@ class Odometry::Impl {
     Vector6d tau = Vector6d::Zero();
     const double duration_s = Seconds(cloud.end_ns - cloud.begin_ns);
     if (options_.initialization.estimate_motion && duration_s > 0.0) {
-      const InitialMotion motion = EstimateInitialMotion(cloud, options_.map, options_.association,
-                                                         options_.weights, &threads_);
+      const InitialMotion motion =
+          EstimateInitialMotion(cloud, options_.map, options_.weights, &threads_);
       const bool is_clear = motion.tau.head<3>().norm() > options_.initialization.clear_motion_m;
       const double gain = is_clear ? 1.0 : options_.initialization.min_gain;
       if (motion.agreement > gain * motion.agreement_at_rest) tau = motion.tau;

@@ -11,7 +11,6 @@
 #include "core/odometry/trajectory/trajectory.h"
 #include "core/odometry/weights/adaptive_threshold.h"
 #include "core/odometry/weights/weight_balance.h"
-#include "core/odometry/window/association.h"
 #include "core/odometry/window/deskew.h"
 #include "core/odometry/window/loss_watch.h"
 #include "core/odometry/window/segment_interval.h"
@@ -44,7 +43,6 @@ struct OdometryOptions {
   SegmenterOptions segmenter;
   AdaptiveIntervalOptions adaptive_interval;
   MapPyramidOptions map;
-  AssociationOptions association;
   AdaptiveThresholdOptions threshold;
   WeightOptions weights;
   WeightBalanceOptions weight_balance;

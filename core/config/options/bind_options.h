@@ -12,7 +12,6 @@ void BindInput(RecordingOptions* input, OptionBinder* b);
 void BindSensing(SegmenterOptions* segmenter, OptionBinder* b);
 void BindAdaptiveInterval(AdaptiveIntervalOptions* interval, OptionBinder* b);
 void BindMap(MapPyramidOptions* pyramid, OptionBinder* b);
-void BindAssociation(AssociationOptions* association, OptionBinder* b);
 void BindThreshold(AdaptiveThresholdOptions* threshold, OptionBinder* b);
 void BindWeights(WeightOptions* weights, OptionBinder* b);
 void BindWeightBalance(WeightBalanceOptions* balance, OptionBinder* b);

@@ -24,8 +24,7 @@ constexpr double kPriorSigmaRad = 2.0;
 class Hypothesis {
  public:
   Hypothesis(const SegmentCloud& cloud, const std::vector<SegmentPoint>& second_half,
-             const Vector6d& tau, const MapPyramidOptions& map_options,
-             const AssociationOptions& association, ThreadPool* threads)
+             const Vector6d& tau, const MapPyramidOptions& map_options, ThreadPool* threads)
       : T_end_(se3::Exp(tau)), points_(static_cast<double>(second_half.size())) {
     const PointInterpolator to_start(SE3(), T_end_);
     std::vector<Eigen::Vector3d> first_half;
@@ -35,8 +34,7 @@ class Hypothesis {
     }
     MapPyramid map(map_options);
     map.Insert(first_half);
-    planes_.Associate(second_half, SE3(), T_end_, map, association, map_options.finest.voxel_size_m,
-                      true, threads);
+    planes_.Associate(second_half, cloud.lidar_origins_body_m, SE3(), T_end_, map, true, threads);
   }
 
   RegistrationNormalEquations Linearize(const RegistrationNoise& noise) const {
@@ -64,7 +62,6 @@ class Hypothesis {
 }  // namespace
 
 InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
-                                    const AssociationOptions& association,
                                     const WeightOptions& weights, ThreadPool* threads) {
   std::vector<SegmentPoint> second_half;
   for (const SegmentPoint& point : cloud.registration_points) {
@@ -83,10 +80,8 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
     const double coarse = std::max(1.0, 4.0 / (1 << (round / 2)));
     MapPyramidOptions coarse_map = hash;
     coarse_map.finest.voxel_size_m *= coarse;
-    AssociationOptions coarse_association = association;
-    coarse_association.plane.max_thickness_m *= coarse;
-    const Hypothesis hypothesis(cloud, second_half, motion.tau, coarse_map, coarse_association,
-                                threads);
+    coarse_map.plane.max_thickness_m *= coarse;
+    const Hypothesis hypothesis(cloud, second_half, motion.tau, coarse_map, threads);
     const RegistrationNoise noise{
         weights.registration_sigma_m,
         {weights.kernel, weights.max_kernel_m * coarse / weights.registration_sigma_m}};
@@ -100,10 +95,9 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
     motion.tau = se3::Log(se3::Exp(motion.tau) * se3::Exp(xi));
     converged = coarse == 1.0 && xi.head<3>().norm() < 2e-3 && xi.tail<3>().norm() < 2e-4;
   }
-  motion.agreement =
-      Hypothesis(cloud, second_half, motion.tau, hash, association, threads).Agreement();
+  motion.agreement = Hypothesis(cloud, second_half, motion.tau, hash, threads).Agreement();
   motion.agreement_at_rest =
-      Hypothesis(cloud, second_half, Vector6d::Zero(), hash, association, threads).Agreement();
+      Hypothesis(cloud, second_half, Vector6d::Zero(), hash, threads).Agreement();
   return motion;
 }
 

@@ -21,7 +21,6 @@ struct InitialMotion {
 /// what it displaces the second, so each round leaves about a third of the error. The voxels start
 /// coarse and shrink. `weights` gives the robust kernel.
 InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
-                                    const AssociationOptions& association,
                                     const WeightOptions& weights, ThreadPool* threads);
 
 }  // namespace trajlo

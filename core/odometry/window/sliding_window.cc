@@ -146,8 +146,8 @@ SegmentAssociation::Counts SlidingWindow::AssociateAll(bool renew) {
   SegmentAssociation::Counts sum;
   for (int k = 0; k < segments(); ++k) {
     const auto counts = segments_[k].association.Associate(
-        segments_[k].cloud.registration_points, problem_.poses[k], problem_.poses[k + 1], *map_,
-        options_.association, threshold_.threshold_m(), renew, threads_);
+        segments_[k].cloud.registration_points, segments_[k].cloud.lidar_origins_body_m,
+        problem_.poses[k], problem_.poses[k + 1], *map_, renew, threads_);
     sum.searched += counts.searched;
     sum.associated += counts.associated;
   }

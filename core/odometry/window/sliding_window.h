@@ -6,6 +6,7 @@
 #include "core/odometry/odometry.h"
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/weights/weight_balance.h"
+#include "core/odometry/window/association.h"
 
 namespace trajlo {
 
