@@ -28,7 +28,7 @@ void RequireAtMost(const Value& a, const Value& b, const char* why) {
 void CheckConfig(const RunConfig& config) {
   const SegmenterOptions& segmenter = config.odometry.segmenter;
   const MapOptions& map = config.odometry.map.finest;
-  const PlaneFitOptions& plane = config.odometry.association.plane;
+  const PlaneFitOptions& plane = config.odometry.map.plane;
   const AdaptiveThresholdOptions& threshold = config.odometry.threshold;
   const RegistrationOptions& registration = config.odometry.registration;
 
@@ -48,8 +48,8 @@ void CheckConfig(const RunConfig& config) {
               "otherwise a voxel holds one point, and no plane is found");
   RequireLess({"map.voxel_size_m", map.voxel_size_m}, {"map.radius_m", map.radius_m},
               "otherwise the map holds nothing");
-  RequireAtMost({"association.plane.min_neighbors", static_cast<double>(plane.min_neighbors)},
-                {"association.plane.neighbors", static_cast<double>(plane.neighbors)},
+  RequireAtMost({"map.plane.min_neighbors", static_cast<double>(plane.min_neighbors)},
+                {"map.plane.neighbors", static_cast<double>(plane.neighbors)},
                 "a query asks for `neighbors` points, and a plane needs `min_neighbors` of them");
   RequireAtMost({"threshold.min_m", threshold.min_m}, {"threshold.initial_m", threshold.initial_m},
                 "the threshold starts within its bounds");

@@ -61,8 +61,8 @@ void Odometry::Start(const SegmentCloud& cloud) {
   const double duration_s = 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns);
   Vector6d tau = Vector6d::Zero();
   if (duration_s > 0.0) {
-    tau = MotionOfFirstInterval(cloud, options_.initialization, options_.map, options_.association,
-                                options_.registration, &threads_);
+    tau = MotionOfFirstInterval(cloud, options_.initialization, options_.map, options_.registration,
+                                &threads_);
     Settle({cloud.begin_ns, SE3(), 0}, Matrix6d::Zero());
   }
   const SE3 T_end = se3::Exp(tau);
@@ -101,8 +101,7 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
     const bool is_first = s->rounds == 0;
-    s->searched += AssociateWindow(map_, options_.association, threshold_.threshold_m(), is_first,
-                                   &threads_, &window_);
+    s->searched += AssociateWindow(map_, is_first, &threads_, &window_);
     s->milliseconds_associate += watch.Milliseconds();
     s->Add(solver_->Solve(&window_), options_.solver);
     s->milliseconds_solve += watch.Milliseconds();

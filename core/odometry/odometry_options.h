@@ -9,7 +9,6 @@
 #include "core/odometry/weights/adaptive_threshold.h"
 #include "core/odometry/weights/motion_prior.h"
 #include "core/odometry/weights/registration_options.h"
-#include "core/odometry/window/association.h"
 #include "core/odometry/window/deskew.h"
 #include "core/odometry/window/marginalize.h"
 
@@ -28,7 +27,6 @@ struct OdometryOptions {
   SegmenterOptions segmenter;
   InitializationOptions initialization;
   MapPyramidOptions map;
-  AssociationOptions association;
   AdaptiveThresholdOptions threshold;
   RegistrationOptions registration;
   MotionPriorOptions motion_prior;

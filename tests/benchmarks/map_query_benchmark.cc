@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Looking up a plane: eight neighbours and their principal components, on the points of a large
-// room's surfaces, by each map; and inserting a segment's points.
+// Looking up 64 planes on the surfaces of a large room: those that the map keeps, or fitted anew to
+// eight neighbours each; and inserting a segment's points.
 #include <benchmark/benchmark.h>
+
+#include <array>
 
 #include "core/odometry/map/map_pyramid.h"
 #include "tests/support/random_poses.h"
@@ -25,26 +27,34 @@ std::vector<Eigen::Vector3d> SurfacePoints(int count, unsigned seed) {
   return points;
 }
 
-void FindPlane(benchmark::State& state, MapKind kind, int levels) {
+void FindPlanes(benchmark::State& state, MapKind kind, bool shared_planes, int levels) {
   MapPyramidOptions options;
   options.finest.kind = kind;
+  options.finest.shared_planes = shared_planes;
   options.levels = levels;
   MapPyramid map(options);
   map.Insert(SurfacePoints(400000, 1));
-  const auto queries = SurfacePoints(20000, 2);
-  std::size_t i = 0;
-  std::size_t found = 0;
-  Plane plane;
+  constexpr std::size_t kBatch = MapPyramid::kMaxBatch;
+  const auto queries = SurfacePoints(kBatch * 300, 2);
+  std::vector<Eigen::Vector3d> rays;
+  for (const Eigen::Vector3d& query : queries) rays.push_back(query.normalized());
+  std::array<Plane, kBatch> planes;
+  std::size_t first = 0;
+  std::int64_t found = 0;
   for (auto _ : state) {
-    found += map.FindPlane(queries[i], queries[i].normalized(), {}, 1.0, &plane);
-    benchmark::DoNotOptimize(plane);
-    i = (i + 1) % queries.size();
+    map.FindPlanes(&queries[first], &rays[first], kBatch, planes.data());
+    for (const Plane& plane : planes) found += plane.exists();
+    first = (first + kBatch) % queries.size();
   }
-  state.counters["found"] = static_cast<double>(found) / static_cast<double>(state.iterations());
+  const auto asked = state.iterations() * static_cast<std::int64_t>(kBatch);
+  state.SetItemsProcessed(asked);
+  state.counters["found"] = static_cast<double>(found) / static_cast<double>(asked);
 }
-BENCHMARK_CAPTURE(FindPlane, voxel_hash, MapKind::kVoxelHash, 1);
-BENCHMARK_CAPTURE(FindPlane, voxel_hash_pyramid, MapKind::kVoxelHash, 4);
-BENCHMARK_CAPTURE(FindPlane, kd_tree, MapKind::kKdTree, 1);
+BENCHMARK_CAPTURE(FindPlanes, shared, MapKind::kVoxelHash, true, 1);
+BENCHMARK_CAPTURE(FindPlanes, shared_pyramid, MapKind::kVoxelHash, true, 4);
+BENCHMARK_CAPTURE(FindPlanes, own, MapKind::kVoxelHash, false, 1);
+BENCHMARK_CAPTURE(FindPlanes, own_pyramid, MapKind::kVoxelHash, false, 4);
+BENCHMARK_CAPTURE(FindPlanes, own_kd_tree, MapKind::kKdTree, false, 1);
 
 void InsertSegment(benchmark::State& state) {
   MapPyramid map(MapPyramidOptions{});

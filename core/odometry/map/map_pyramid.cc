@@ -7,30 +7,28 @@
 #include <string>
 
 namespace trajlo {
-namespace {
 
-/// Whether a plane of a coarser level is flat there, and the query on it.
-bool IsWideAndThin(const Plane& plane, const Eigen::Vector3d& query_world,
-                   const PlaneFitOptions& options) {
-  const double distance_m = std::abs(plane.normal_world.dot(query_world) - plane.offset_m);
-  return plane.thickness_m <= options.half_weight_thickness_m &&
-         plane.thickness_m <= options.max_wide_flatness * plane.width_m &&
-         distance_m <= options.max_wide_distance_in_widths * plane.width_m;
-}
+/// Queries on their way from the coarsest level to the finest.
+struct MapPyramid::Batch {
+  const Eigen::Vector3d* places;
+  const Eigen::Vector3d* rays;
+  Plane* planes;
+  std::array<VoxelKey, kMaxBatch> cells;  ///< Of the finest level.
+  std::array<bool, kMaxBatch> grazed;
+  /// Those that are not settled yet.
+  std::array<std::uint16_t, kMaxBatch> open;
+  std::size_t open_count;
+};
 
-}  // namespace
-
-MapPyramid::MapPyramid(const MapPyramidOptions& options) {
+MapPyramid::MapPyramid(const MapPyramidOptions& options) : plane_(options.plane) {
   if (options.levels < 1 || options.levels > kMaxLevels) {
     throw std::invalid_argument("a map pyramid has 1 to " + std::to_string(kMaxLevels) + " levels");
   }
   MapOptions level = options.finest;
-  double scale = 1.0;
   for (int i = 0; i < options.levels; ++i) {
-    levels_.push_back({MakePointMap(level), scale, level.min_point_spacing_m});
-    scale *= options.level_ratio;
-    level.voxel_size_m *= options.level_ratio;
-    level.min_point_spacing_m *= options.level_ratio;
+    levels_.emplace_back(level, options.plane);
+    level.voxel_size_m *= 2.0;
+    level.min_point_spacing_m *= 2.0;
   }
 }
 
@@ -38,66 +36,87 @@ void MapPyramid::Insert(const std::vector<Eigen::Vector3d>& points_world) {
   // What a level has no use for, because it has points there, is none for the coarser ones either.
   std::vector<Eigen::Vector3d> offered = points_world;
   std::vector<Eigen::Vector3d> accepted;
-  for (Level& level : levels_) {
+  for (MapLevel& level : levels_) {
     accepted.clear();
-    level.map->Insert(offered, &accepted);
+    level.Insert(offered, &accepted);
     offered.swap(accepted);
   }
 }
 
 void MapPyramid::RemoveFar(const Eigen::Vector3d& center_world) {
-  for (Level& level : levels_) level.map->RemoveFar(center_world);
+  for (MapLevel& level : levels_) level.RemoveFar(center_world);
 }
 
-bool MapPyramid::FitAt(const Level& level, const Eigen::Vector3d& query_world,
-                       const PlaneFitOptions& options, double reach_m, Plane* plane) {
-  Neighbors neighbors;
-  level.map->Nearest(query_world, options.neighbors, options.min_neighbors, &neighbors);
-  if (neighbors.count < options.min_neighbors) return false;
-  const double reach = reach_m * level.scale;
-  if (neighbors.squared_distance[0] > reach * reach) return false;
-  if (!FitPlane(neighbors, options, level.spacing_m, plane)) return false;
-  plane->scale = level.scale;
-  return true;
+void MapPyramid::AskLevel(std::size_t i, Batch* batch) const {
+  const MapLevel& level = levels_[i];
+  const auto shift = static_cast<int>(i);
+  const double scale = std::ldexp(1.0, shift);
+  std::array<VoxelKey, kMaxBatch> cells;
+  std::array<const VoxelIndex::Entry*, kMaxBatch> sites;
+  for (std::size_t j = 0; j < batch->open_count; ++j) {
+    const VoxelKey& finest = batch->cells[batch->open[j]];
+    cells[j] = {finest.x() >> shift, finest.y() >> shift, finest.z() >> shift};
+    level.Prefetch(cells[j]);
+  }
+  for (std::size_t j = 0; j < batch->open_count; ++j) sites[j] = level.FindSite(cells[j]);
+
+  std::size_t still_open = 0;
+  for (std::size_t j = 0; j < batch->open_count; ++j) {
+    const std::uint16_t q = batch->open[j];
+    batch->open[still_open++] = q;
+    if (sites[j] == nullptr) continue;
+    Eigen::Vector3d center_world;
+    const FittedPlane fit = level.PlaneAt(*sites[j], cells[j], batch->places[q], &center_world);
+    if (!fit.exists()) continue;
+    const Eigen::Vector3d normal = fit.normal_world.cast<double>();
+    const bool is_grazed = std::abs(normal.dot(batch->rays[q])) < plane_.min_incidence_sine;
+    Plane& plane = batch->planes[q];
+    if (is_grazed && plane.exists() && !batch->grazed[q]) continue;
+    const double offset_m = fit.offset_m;
+    const double distance_m = std::abs(normal.dot(batch->places[q] - center_world) - offset_m);
+    const double relative = fit.thickness_m / plane_.half_weight_thickness_m;
+    plane.normal_world = normal;
+    plane.offset_m = normal.dot(center_world) + offset_m;
+    plane.weight = 1.0 / (1.0 + relative * relative);
+    plane.scale = scale;
+    batch->grazed[q] = is_grazed;
+    const bool is_wide_and_thin = i > 0 && !is_grazed && relative <= 1.0 &&
+                                  fit.thickness_m < plane_.max_wide_flatness * fit.width_m &&
+                                  distance_m <= plane_.max_wide_distance_in_widths * fit.width_m;
+    if (is_wide_and_thin) {
+      --still_open;
+    } else {
+      plane.weight /= scale;
+    }
+  }
+  batch->open_count = still_open;
 }
 
-bool MapPyramid::FindPlane(const Eigen::Vector3d& query_world, const Eigen::Vector3d& ray_world,
-                           const PlaneFitOptions& options, double reach_m, Plane* plane) const {
-  const auto is_grazed = [&](const Plane& candidate) {
-    return std::abs(candidate.normal_world.dot(ray_world)) < options.min_incidence_sine;
-  };
-  // A wide thin plane has the better normal: where the surface is flat at a coarse level, that one
-  // is taken.
-  std::array<Plane, kMaxLevels> fits;
-  std::array<bool, kMaxLevels> found{};
-  const std::size_t count = levels_.size();
-  const std::size_t searched_first = options.max_wide_flatness > 0.0 ? 1 : count;
-  for (std::size_t i = count; i-- > searched_first;) {
-    found[i] = FitAt(levels_[i], query_world, options, reach_m, &fits[i]);
-    if (found[i] && IsWideAndThin(fits[i], query_world, options) && !is_grazed(fits[i])) {
-      *plane = fits[i];
-      return true;
-    }
+void MapPyramid::FindPlanes(const Eigen::Vector3d* places_world, const Eigen::Vector3d* rays_world,
+                            std::size_t count, Plane* planes) const {
+  Batch batch;
+  batch.places = places_world;
+  batch.rays = rays_world;
+  batch.planes = planes;
+  batch.open_count = count;
+  for (std::size_t q = 0; q < count; ++q) {
+    batch.open[q] = static_cast<std::uint16_t>(q);
+    batch.cells[q] = levels_.front().CellOf(places_world[q]);
+    planes[q].weight = 0.0;
   }
-  // Else the finest that is no scan line; a plane along the ray only where there is no other.
-  const Plane* grazed = nullptr;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i < searched_first) found[i] = FitAt(levels_[i], query_world, options, reach_m, &fits[i]);
-    if (!found[i]) continue;
-    fits[i].weight /= fits[i].scale;
-    if (!is_grazed(fits[i])) {
-      *plane = fits[i];
-      return true;
-    }
-    if (grazed == nullptr) grazed = &fits[i];
-  }
-  if (grazed != nullptr) *plane = *grazed;
-  return grazed != nullptr;
+  for (std::size_t i = levels_.size(); i-- > 0;) AskLevel(i, &batch);
+}
+
+Plane MapPyramid::FindPlane(const Eigen::Vector3d& place_world,
+                            const Eigen::Vector3d& ray_world) const {
+  Plane plane;
+  FindPlanes(&place_world, &ray_world, 1, &plane);
+  return plane;
 }
 
 std::size_t MapPyramid::size() const {
   std::size_t points = 0;
-  for (const Level& level : levels_) points += level.map->size();
+  for (const MapLevel& level : levels_) points += level.points().size();
   return points;
 }
 

@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
+#include <deque>
 #include <vector>
 
-#include "core/odometry/map/plane_fit.h"
-#include "core/odometry/map/point_map.h"
+#include "core/odometry/map/map_level.h"
 
 namespace trajlo {
 
 struct MapPyramidOptions {
   MapOptions finest;
-  /// Number of maps; 1 is the paper's single map.
+  PlaneFitOptions plane;
+  /// Number of maps, each with voxels and spacing twice those of the one before; 1 is the paper's
+  /// single map.
   int levels = 4;
-  /// Voxels and spacing grow by this from level to level.
-  double level_ratio = 2.0;
+};
+
+/// The plane normalᵀ x = offset in the world frame.
+struct Plane {
+  Eigen::Vector3d normal_world;
+  double offset_m;
+  /// Relative information of a distance to it, in (0, 1]; zero says that there is no plane.
+  double weight = 0.0;
+  /// Voxels of the level it comes from, in those of the finest.
+  double scale = 1.0;
+
+  bool exists() const { return weight > 0.0; }
 };
 
 /// The same points at several resolutions. Where a coarse map has a plane that is wide and thin (a
@@ -25,6 +36,8 @@ struct MapPyramidOptions {
 class MapPyramid {
  public:
   static constexpr int kMaxLevels = 8;
+  /// The most queries at a time.
+  static constexpr std::size_t kMaxBatch = 64;
 
   /// Throws std::invalid_argument unless there are 1 to kMaxLevels levels.
   explicit MapPyramid(const MapPyramidOptions& options);
@@ -32,28 +45,24 @@ class MapPyramid {
   void Insert(const std::vector<Eigen::Vector3d>& points_world);
   void RemoveFar(const Eigen::Vector3d& center_world);
 
-  /// The plane at `query_world`; its nearest point is within `reach_m` times the level's ratio.
-  /// `ray_world` is the unit vector from the sensor to the query: a plane that it merely grazes is
-  /// taken only where there is no other. A plane that is not wide and thin has its weight divided
-  /// by the level's ratio.
-  bool FindPlane(const Eigen::Vector3d& query_world, const Eigen::Vector3d& ray_world,
-                 const PlaneFitOptions& options, double reach_m, Plane* plane) const;
+  /// The planes at `count` <= kMaxBatch places. A ray is the unit vector from the sensor to the
+  /// place: a plane that it merely grazes is taken only where there is no other. A plane that is
+  /// not wide and thin has its weight divided by the ratio of its level.
+  void FindPlanes(const Eigen::Vector3d* places_world, const Eigen::Vector3d* rays_world,
+                  std::size_t count, Plane* planes) const;
+  Plane FindPlane(const Eigen::Vector3d& place_world, const Eigen::Vector3d& ray_world) const;
 
-  const PointMap& finest() const { return *levels_.front().map; }
-  /// Voxels of the coarsest level in those of the finest.
-  double coarsest_scale() const { return levels_.back().scale; }
+  const VoxelHashMap& finest() const { return levels_.front().points(); }
   /// Points of all levels.
   std::size_t size() const;
 
  private:
-  struct Level {
-    std::unique_ptr<PointMap> map;
-    double scale;
-    double spacing_m;
-  };
-  static bool FitAt(const Level& level, const Eigen::Vector3d& query_world,
-                    const PlaneFitOptions& options, double reach_m, Plane* plane);
-  std::vector<Level> levels_;
+  struct Candidate;
+  struct Batch;
+  void AskLevel(std::size_t level, Batch* batch) const;
+
+  PlaneFitOptions plane_;
+  std::deque<MapLevel> levels_;
 };
 
 }  // namespace trajlo

@@ -7,10 +7,10 @@
 
 namespace trajlo {
 
-bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, double spacing_m,
-              Plane* plane) {
+FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_world,
+                     const PlaneFitOptions& options, double spacing_m) {
   const int n = neighbors.count;
-  if (n < options.min_neighbors) return false;
+  if (n < options.min_neighbors) return {};
   double sx = 0, sy = 0, sz = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   // Moments about the nearest neighbour: no cancellation.
   const double ox = neighbors.x[0], oy = neighbors.y[0], oz = neighbors.z[0];
@@ -34,19 +34,21 @@ bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, double
 
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(covariance);
-  plane->thickness_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
-  plane->width_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
-  if (plane->width_m < options.min_width_in_spacings * spacing_m ||
-      plane->thickness_m > options.max_thickness_m ||
-      plane->thickness_m > options.max_flatness * plane->width_m) {
-    return false;
+  const double thickness_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
+  const double width_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
+  if (width_m < options.min_width_in_spacings * spacing_m ||
+      thickness_m > options.max_thickness_m || thickness_m > options.max_flatness * width_m) {
+    return {};
   }
-  const double relative = plane->thickness_m / options.half_weight_thickness_m;
-  plane->weight = 1.0 / (1.0 + relative * relative);
-  plane->normal_world = eigen.eigenvectors().col(0);
-  plane->offset_m =
-      plane->normal_world.dot(neighbors.origin_world + Eigen::Vector3d(ox, oy, oz) + mean);
-  return true;
+  const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
+  const Eigen::Vector3d from_center =
+      neighbors.origin_world - center_world + Eigen::Vector3d(ox, oy, oz) + mean;
+  FittedPlane plane;
+  plane.normal_world = normal.cast<float>();
+  plane.offset_m = static_cast<float>(normal.dot(from_center));
+  plane.thickness_m = static_cast<float>(thickness_m);
+  plane.width_m = static_cast<float>(width_m);
+  return plane;
 }
 
 }  // namespace trajlo

@@ -3,11 +3,11 @@
 
 #include <Eigen/Core>
 
-#include "core/odometry/map/point_map.h"
+#include "core/odometry/map/neighbors.h"
 
 namespace trajlo {
 
-/// When the neighbours of a point make a plane. With the standard deviations l0 <= l1 <= l2 of the
+/// When the neighbours of a place make a plane. With the standard deviations l0 <= l1 <= l2 of the
 /// neighbours along their principal axes:
 struct PlaneFitOptions {
   /// Points taken for a plane (paper: 5).
@@ -35,21 +35,20 @@ struct PlaneFitOptions {
   double half_weight_thickness_m = 0.05;
 };
 
-/// The plane normalᵀ x = offset in the world frame.
-struct Plane {
-  Eigen::Vector3d normal_world;
-  double offset_m;
-  double thickness_m;  ///< l0
-  double width_m;      ///< l1
-  /// Relative information of a distance to it, in (0, 1].
-  double weight = 1.0;
-  /// Spacing of the map it comes from, in those of the finest.
-  double scale = 1.0;
+/// The plane nᵀ (x - center) = offset about a center in the world frame that is kept elsewhere.
+struct FittedPlane {
+  Eigen::Vector3f normal_world = Eigen::Vector3f::Zero();
+  float offset_m = 0.0F;
+  float thickness_m = 0.0F;  ///< l0
+  float width_m = 0.0F;      ///< l1; zero says that there is no plane.
+
+  bool exists() const { return width_m > 0.0F; }
 };
 
-/// The plane through the neighbours by principal component analysis; false when they make none.
-/// `spacing_m` is the least distance between points of the map.
-bool FitPlane(const Neighbors& neighbors, const PlaneFitOptions& options, double spacing_m,
-              Plane* plane);
+/// The plane through the neighbours of `center_world` by principal component analysis; one that
+/// does not exist where they make none. `spacing_m` is the least distance between points of the
+/// map.
+FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_world,
+                     const PlaneFitOptions& options, double spacing_m);
 
 }  // namespace trajlo

@@ -1,74 +1,86 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tsl/robin_map.h>
-
-#include <array>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <vector>
 
-#include "core/odometry/map/point_map.h"
+#include "core/odometry/map/neighbors.h"
+#include "core/odometry/map/voxel_index.h"
 
 namespace trajlo {
 
-/// The paper's map: a hash of voxels with a bounded number of points each; a query looks into the
-/// voxel of the point and the six that share a face with it.
+/// The paper's map: a hash of voxels with at most 20 points each; a query looks into the voxel of
+/// the point and the six that share a face with it.
 ///
-/// Points are stored in blocks (one a voxel, x then y then z, single precision relative to the
-/// voxel's corner), so that the distances of a voxel are one short vector loop. Blocks know their
-/// six neighbours: a query hashes once. A neighbour voxel is skipped when its face is farther than
-/// the k-th point found so far, and nothing is looked up where a table of counts says that the
-/// seven voxels hold too few points (most queries of a sensor in the open end there); neither
-/// changes the answer. Voxel indices are floor(x / size) as 32-bit numbers: coordinates of 1e6 m
-/// are fine.
-class VoxelHashMap final : public PointMap {
+/// Every voxel that has points or shares a face with one that does knows how many points there are
+/// around it. Where they are enough for a plane it is a site, and has a number. Queries are const
+/// and may run on several threads; insertion and removal may not run beside them.
+class VoxelHashMap {
  public:
-  explicit VoxelHashMap(const MapOptions& options);
+  /// The paper's bound.
+  static constexpr int kMaxPointsPerVoxel = 20;
 
+  /// A point nearer than `min_point_spacing_m` to another of its voxel is not added. Voxels farther
+  /// than `radius_m` from the sensor are dropped. A site has `points_of_site` points around it.
+  VoxelHashMap(double voxel_size_m, double min_point_spacing_m, double radius_m,
+               int points_of_site);
+
+  /// Adds points in the given order, each if its voxel has room and no point too near. Those added
+  /// are appended to `accepted` unless it is null.
   void Insert(const std::vector<Eigen::Vector3d>& points_world,
-              std::vector<Eigen::Vector3d>* accepted = nullptr) override;
-  void RemoveFar(const Eigen::Vector3d& center_world) override;
-  void Nearest(const Eigen::Vector3d& query_world, int k, int at_least,
-               Neighbors* neighbors) const override;
-  std::size_t size() const override { return point_count_; }
-  void ForEachPoint(const std::function<void(const Eigen::Vector3d&)>& visit) const override;
+              std::vector<Eigen::Vector3d>* accepted = nullptr);
 
-  /// Adds one point; false when its voxel is full or it is too near to another point there.
-  bool InsertPoint(const Eigen::Vector3d& point_world);
-  std::size_t voxel_count() const { return index_.size(); }
+  /// Drops what is farther than the radius from `center_world`. Appends to `changed` the numbers of
+  /// all sites that lost points, once or more; the numbers of those that are none any more may be
+  /// given anew.
+  void RemoveFar(const Eigen::Vector3d& center_world, std::vector<std::uint32_t>* changed);
+
+  /// The `k` <= kMaxNeighbors nearest points of the seven voxels around `query_world`.
+  void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const;
+
+  VoxelKey KeyOf(const Eigen::Vector3d& p) const { return VoxelAt(p, inverse_size_); }
+  Eigen::Vector3d CornerOf(const VoxelKey& key) const { return voxel_size_ * key.cast<double>(); }
+  const VoxelIndex& index() const { return index_; }
+  /// All numbers of sites are smaller.
+  std::size_t site_capacity() const { return site_count_; }
+
+  double voxel_size_m() const { return voxel_size_; }
+  double min_point_spacing_m() const { return spacing_; }
+  /// Number of points.
+  std::size_t size() const { return point_count_; }
+  void ForEachPoint(const std::function<void(const Eigen::Vector3d&)>& visit) const;
 
  private:
-  using Key = Eigen::Vector3i;
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const;
+  /// Up to four points of a voxel, relative to its corner: a cache line. Most voxels need one.
+  struct alignas(64) Block {
+    static constexpr int kCapacity = 4;
+    float x[kCapacity] = {}, y[kCapacity] = {}, z[kCapacity] = {};
+    VoxelKey key = VoxelKey::Zero();
+    std::uint32_t next : 24;  ///< More points of the voxel.
+    std::uint32_t count : 8;
+    Block() : next(kNoNext), count(0) {}
   };
-  struct Block {
-    Key key = Key::Zero();
-    int count = -1;  ///< -1: free.
-    std::array<int, 6> neighbors{};
-  };
+  static constexpr std::uint32_t kNoNext = (1U << 24) - 1;
+  static_assert(sizeof(Block) == 64);
   struct Best;
 
-  Key KeyOf(const Eigen::Vector3d& p) const;
-  Eigen::Vector3d Corner(const Key& key) const { return voxel_size_ * key.cast<double>(); }
-  int Find(const Key& key) const;
-  std::size_t SlotOf(const Key& key) const { return KeyHash()(key) & (counts_.size() - 1); }
-  void AddToCounts(const Key& key, std::uint32_t points);
-  void GrowCounts();
-  int AddBlock(const Key& key);
-  void FreeBlock(int block);
-  const float* Points(int block) const { return coordinates_.data() + stride_ * block; }
-  void Scan(int block, float dx, float dy, float dz, const float* query, Best* best) const;
+  bool InsertPoint(const VoxelKey& key, const Eigen::Vector3d& point_world);
+  /// Where the next point of a voxel goes; null if the voxel is full or `p` too near to another.
+  Block* PlaceFor(VoxelIndex::Entry* entry, const VoxelKey& key, const Eigen::Vector3f& p);
+  std::uint32_t NewBlock(const VoxelKey& key);
+  void AddAround(VoxelIndex::Entry* entry);
+  void DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed);
+  void Scan(std::uint32_t block, const Eigen::Vector3f& shift, const Eigen::Vector3f& query,
+            Best* best) const;
 
-  MapOptions options_;
-  double voxel_size_;
-  std::size_t stride_;  ///< Floats of a block: 3 times its capacity.
-  tsl::robin_map<Key, int, KeyHash> index_;
+  double voxel_size_, inverse_size_, spacing_, radius_;
+  std::uint32_t points_of_site_;
+  VoxelIndex index_;
   std::vector<Block> blocks_;
-  /// By the hash of a voxel: how many points it and its six neighbours hold, or more (voxels that
-  /// fall on the same entry add up). Its size is a power of two.
-  std::vector<std::uint32_t> counts_;
-  std::vector<float> coordinates_;
-  std::vector<int> free_;
+  std::vector<std::uint32_t> free_blocks_, free_sites_;
+  std::size_t site_count_ = 0;
   std::size_t point_count_ = 0;
   std::optional<Eigen::Vector3d> last_removal_center_;
 };

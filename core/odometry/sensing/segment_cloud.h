@@ -12,6 +12,7 @@ namespace trajlo {
 struct SegmentPoint {
   Eigen::Vector3f p_body_m;
   float alpha;
+  std::uint16_t lidar = 0;  ///< Which LiDAR measured it.
 };
 
 /// What became of the points that the readers delivered.
@@ -31,6 +32,8 @@ struct SegmentCloud {
   std::int64_t end_ns = 0;
   /// True for the one long, empty segment that stands for a pause in the recording.
   bool is_gap = false;
+  /// Where each LiDAR is in the body frame.
+  std::vector<Eigen::Vector3d> lidar_origins_body_m;
   std::vector<SegmentPoint> map_points;           ///< Fine: what enters the map.
   std::vector<SegmentPoint> registration_points;  ///< Coarse subset: what is registered.
 };

@@ -43,6 +43,10 @@ void Segmenter::AddScan(const LidarScan& scan) {
   }
 }
 
+SE3 Segmenter::PoseOf(std::size_t lidar) const {
+  return lidar < options_.T_body_lidar.size() ? options_.T_body_lidar[lidar] : SE3();
+}
+
 bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body) {
   Eigen::Vector3f p = point.xyz_m;
   if (!p.allFinite()) {
@@ -86,8 +90,7 @@ std::int64_t Segmenter::FirstOpen_ns() const {
 
 void Segmenter::AddContinuous(const LidarScan& scan) {
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);
-  const SE3 T_body_lidar =
-      lidar < options_.T_body_lidar.size() ? options_.T_body_lidar[lidar] : SE3();
+  const SE3 T_body_lidar = PoseOf(lidar);
   if (scan.points.empty()) return;
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   for (const LidarPoint& point : scan.points) first_ns = std::min(first_ns, point.t_ns);
@@ -115,7 +118,7 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
     Slot& slot = SlotAt(point.t_ns);
     const double alpha = static_cast<double>(point.t_ns - slot.begin_ns) /
                          static_cast<double>(slot.end_ns - slot.begin_ns);
-    slot.points.push_back({p_body, static_cast<float>(alpha)});
+    slot.points.push_back({p_body, static_cast<float>(alpha), static_cast<std::uint16_t>(lidar)});
   }
   newest_ns_[lidar] = std::max(newest_ns_[lidar], newest_ns);
 
@@ -134,8 +137,7 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
 
 void Segmenter::AddDiscrete(const LidarScan& scan) {
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);
-  const SE3 T_body_lidar =
-      lidar < options_.T_body_lidar.size() ? options_.T_body_lidar[lidar] : SE3();
+  const SE3 T_body_lidar = PoseOf(lidar);
   if (end_ns_ && scan.stamp_ns <= *end_ns_) {
     counts_.too_late += static_cast<std::int64_t>(scan.points.size());
     return;
@@ -147,7 +149,8 @@ void Segmenter::AddDiscrete(const LidarScan& scan) {
   OpenNext(scan.stamp_ns, true);
   for (const LidarPoint& point : scan.points) {
     Eigen::Vector3f p_body;
-    if (Accept(point, T_body_lidar, &p_body)) slots_.back().points.push_back({p_body, 1.0F});
+    if (!Accept(point, T_body_lidar, &p_body)) continue;
+    slots_.back().points.push_back({p_body, 1.0F, static_cast<std::uint16_t>(lidar)});
   }
   newest_ns_[lidar] = scan.stamp_ns;
   CompleteUntil(scan.stamp_ns);
@@ -172,6 +175,9 @@ std::optional<SegmentCloud> Segmenter::Next(int slots) {
   cloud.begin_ns = slots_.front().begin_ns;
   cloud.end_ns = slots_[wanted - 1].end_ns;
   cloud.is_gap = slots_.front().is_gap;
+  for (std::size_t lidar = 0; lidar < newest_ns_.size(); ++lidar) {
+    cloud.lidar_origins_body_m.push_back(PoseOf(lidar).t);
+  }
   Thin(TakePoints(wanted), &cloud);
   return cloud;
 }

@@ -69,6 +69,7 @@ class Segmenter {
   };
   void AddContinuous(const LidarScan& scan);
   void AddDiscrete(const LidarScan& scan);
+  SE3 PoseOf(std::size_t lidar) const;
   bool Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body);
   Slot& SlotAt(std::int64_t t_ns);
   void OpenNext(std::int64_t end_ns, bool is_whole, bool is_gap = false);

@@ -2,8 +2,11 @@
 #include "core/odometry/start/initial_motion.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <optional>
 
+#include "core/odometry/window/association.h"
 #include "factors/segment_registration.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -20,12 +23,23 @@ constexpr double kAgreementM = 0.05;
 constexpr double kPriorSigmaM = 10.0;
 constexpr double kPriorSigmaRad = 2.0;
 
+/// A search that comes back to rest has found it.
+constexpr double kAtRest_m = 0.1;
+/// A direction with less than this share of the information is held weakly.
+constexpr double kWeakShare = 0.02;
+/// Planes whose normals have at least this cosine with a direction face it.
+constexpr double kFacing = 0.5;
+/// How far, and in which steps, the search along a weak direction goes: 50 m/s over 0.3 s.
+constexpr double kSearchReach_m = 15.0;
+constexpr double kSearchStep_m = 2.0;
+constexpr int kSearchFirstRound = 2;
+constexpr int kSearchLastRound = 11;
+
 /// The first half's points as a map, moved with the hypothesis, and the second half's planes in it.
 class Hypothesis {
  public:
   Hypothesis(const SegmentCloud& cloud, const std::vector<SegmentPoint>& second_half,
-             const Vector6d& tau, const MapPyramidOptions& map_options,
-             const AssociationOptions& association, ThreadPool* threads)
+             const Vector6d& tau, const MapPyramidOptions& map_options, ThreadPool* threads)
       : T_end_(se3::Exp(tau)), points_(static_cast<double>(second_half.size())) {
     const SegmentMotion motion(SE3(), T_end_);
     std::vector<Eigen::Vector3d> first_half;
@@ -35,22 +49,25 @@ class Hypothesis {
     }
     MapPyramid map(map_options);
     map.Insert(first_half);
-    planes_.Associate(second_half, SE3(), T_end_, map, association, map_options.finest.voxel_size_m,
-                      true, threads, &points_with_plane_);
+    SegmentAssociation().Associate(second_half, cloud.lidar_origins_body_m, SE3(), T_end_, map,
+                                   true, threads, &points_with_plane_);
   }
 
   RegistrationNormalEquations Linearize(const RegistrationNoise& noise) const {
     return LinearizeSegment(points_with_plane_, SE3(), T_end_, noise);
   }
 
-  /// Share of the second half's points that lie within kAgreementM of a plane.
-  double Agreement() const {
+  /// Share of the second half's points that lie within kAgreementM of a plane. With `direction` (a
+  /// unit vector in the world), only of planes that face it: these tell how far one has moved along
+  /// it, whatever the others say.
+  double Agreement(const std::optional<Eigen::Vector3d>& direction = std::nullopt) const {
     int agreeing = 0;
     const SegmentMotion motion(SE3(), T_end_);
     for (const RegistrationPoint& point : points_with_plane_) {
+      if (direction && std::abs(point.normal_world.dot(*direction)) < kFacing) continue;
       const double distance_m =
           point.normal_world.dot(motion.ToWorld(point.alpha, point.p_body_m)) - point.offset_m;
-      agreeing += std::abs(distance_m) < kAgreementM;
+      agreeing += std::abs(distance_m) < kAgreementM ? 1 : 0;
     }
     return agreeing / points_;
   }
@@ -58,62 +75,115 @@ class Hypothesis {
  private:
   SE3 T_end_;
   double points_;
-  SegmentAssociation planes_;
   std::vector<RegistrationPoint> points_with_plane_;
 };
+
+/// The first interval, and ways to look at it.
+class FirstInterval {
+ public:
+  FirstInterval(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
+                const RegistrationOptions& registration, ThreadPool* threads)
+      : cloud_(cloud), map_options_(map_options), registration_(registration), threads_(threads) {
+    map_options_.finest.kind = MapKind::kVoxelHash;
+    for (const SegmentPoint& point : cloud.registration_points) {
+      if (point.alpha >= 0.5F) second_half_.push_back(point);
+    }
+  }
+
+  bool is_empty() const { return second_half_.empty(); }
+
+  double Agreement(const Vector6d& tau,
+                   const std::optional<Eigen::Vector3d>& direction = std::nullopt) const {
+    return Hypothesis(cloud_, second_half_, tau, map_options_, threads_).Agreement(direction);
+  }
+
+  /// The motion near `tau` by rounds of registration; the first ones see coarsely.
+  Vector6d Refine(Vector6d tau, int first_round, int last_round) const {
+    for (int round = first_round; round < last_round; ++round) {
+      // 4, 4, 2, 2, 1, 1, ... times the map's voxels, plane thickness and kernel.
+      const double coarse = std::max(1.0, 4.0 / (1 << (round / 2)));
+      const RegistrationNormalEquations equations = Linearize(tau, coarse);
+      Vector6d prior = Vector6d::Constant(1.0 / (kPriorSigmaM * kPriorSigmaM));
+      prior.tail<3>().setConstant(1.0 / (kPriorSigmaRad * kPriorSigmaRad));
+      Matrix6d H = equations.H.bottomRightCorner<6, 6>();
+      H.diagonal() += prior;
+      const Vector6d g = equations.g.tail<6>() + prior.cwiseProduct(tau);
+      Vector6d xi = -H.ldlt().solve(g);
+      if (!xi.allFinite()) return Vector6d::Zero();
+      if (round >= kDampedFrom) xi *= 0.5;
+      tau = se3::Log(se3::Exp(tau) * se3::Exp(xi));
+      if (coarse == 1.0 && xi.head<3>().norm() < 2e-3 && xi.tail<3>().norm() < 2e-4) break;
+    }
+    return tau;
+  }
+
+  /// The direction of translation that the points hold least, in the world, if they hold it weakly.
+  std::optional<Eigen::Vector3d> WeakDirection(const Vector6d& tau) const {
+    const Eigen::Matrix3d H = Linearize(tau, 1.0).H.block<3, 3>(6, 6);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(H);
+    if (eigen.eigenvalues()[0] > kWeakShare * H.trace()) return std::nullopt;
+    return se3::Exp(tau).q * eigen.eigenvectors().col(0);
+  }
+
+ private:
+  RegistrationNormalEquations Linearize(const Vector6d& tau, double coarse) const {
+    MapPyramidOptions map = map_options_;
+    map.finest.voxel_size_m *= coarse;
+    map.plane.max_thickness_m *= coarse;
+    const RegistrationNoise noise =
+        MakeRegistrationNoise(registration_, coarse * registration_.max_kernel_m);
+    return Hypothesis(cloud_, second_half_, tau, map, threads_).Linearize(noise);
+  }
+
+  const SegmentCloud& cloud_;
+  MapPyramidOptions map_options_;
+  const RegistrationOptions& registration_;
+  ThreadPool* threads_;
+  std::vector<SegmentPoint> second_half_;
+};
+
+/// Where the points hold one direction weakly (along a road), a search ends near where it starts.
+/// So it is started again at steps along that direction, and judged by the planes that face it.
+Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& interval,
+                     const Vector6d& found) {
+  const double found_m = found.head<3>().dot(direction);
+  Vector6d best = found;
+  double best_agreement = interval.Agreement(found, direction);
+  for (double start_m = -kSearchReach_m; start_m <= kSearchReach_m; start_m += kSearchStep_m) {
+    Vector6d start = found;
+    start.head<3>() += (start_m - found_m) * direction;
+    const Vector6d tau = interval.Refine(start, kSearchFirstRound, kSearchLastRound);
+    const double agreement = interval.Agreement(tau, direction);
+    if (agreement <= best_agreement) continue;
+    best = tau;
+    best_agreement = agreement;
+  }
+  return interval.Refine(best, kSearchFirstRound, kRounds);
+}
 
 }  // namespace
 
 InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
-                                    const AssociationOptions& association,
                                     const RegistrationOptions& registration, ThreadPool* threads) {
-  std::vector<SegmentPoint> second_half;
-  for (const SegmentPoint& point : cloud.registration_points) {
-    if (point.alpha >= 0.5F) second_half.push_back(point);
-  }
   InitialMotion motion;
-  if (second_half.empty()) return motion;
-  MapPyramidOptions hash = map_options;
-  hash.finest.kind = MapKind::kVoxelHash;
-
-  Vector6d prior = Vector6d::Constant(1.0 / (kPriorSigmaM * kPriorSigmaM));
-  prior.tail<3>().setConstant(1.0 / (kPriorSigmaRad * kPriorSigmaRad));
-  bool converged = false;
-  for (int round = 0; round < kRounds && !converged; ++round) {
-    // 4, 4, 2, 2, 1, 1, ... times the map's voxels, plane thickness and kernel.
-    const double coarse = std::max(1.0, 4.0 / (1 << (round / 2)));
-    MapPyramidOptions coarse_map = hash;
-    coarse_map.finest.voxel_size_m *= coarse;
-    AssociationOptions coarse_association = association;
-    coarse_association.plane.max_thickness_m *= coarse;
-    const Hypothesis hypothesis(cloud, second_half, motion.tau, coarse_map, coarse_association,
-                                threads);
-    const RegistrationNoise noise =
-        MakeRegistrationNoise(registration, coarse * registration.max_kernel_m);
-    const RegistrationNormalEquations equations = hypothesis.Linearize(noise);
-    Matrix6d H = equations.H.bottomRightCorner<6, 6>();
-    H.diagonal() += prior;
-    const Vector6d g = equations.g.tail<6>() + prior.cwiseProduct(motion.tau);
-    Vector6d xi = -H.ldlt().solve(g);
-    if (!xi.allFinite()) return {};
-    if (round >= kDampedFrom) xi *= 0.5;
-    motion.tau = se3::Log(se3::Exp(motion.tau) * se3::Exp(xi));
-    converged = coarse == 1.0 && xi.head<3>().norm() < 2e-3 && xi.tail<3>().norm() < 2e-4;
+  const FirstInterval interval(cloud, map_options, registration, threads);
+  if (interval.is_empty()) return motion;
+  motion.tau = interval.Refine(Vector6d::Zero(), 0, kRounds);
+  motion.agreement = interval.Agreement(motion.tau);
+  motion.agreement_at_rest = interval.Agreement(Vector6d::Zero());
+  if (motion.tau.head<3>().norm() < kAtRest_m) return motion;
+  if (const auto direction = interval.WeakDirection(motion.tau)) {
+    motion.tau = SearchAlong(*direction, interval, motion.tau);
+    motion.agreement = interval.Agreement(motion.tau);
   }
-  motion.agreement =
-      Hypothesis(cloud, second_half, motion.tau, hash, association, threads).Agreement();
-  motion.agreement_at_rest =
-      Hypothesis(cloud, second_half, Vector6d::Zero(), hash, association, threads).Agreement();
   return motion;
 }
 
 Vector6d MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOptions& options,
                                const MapPyramidOptions& map_options,
-                               const AssociationOptions& association,
                                const RegistrationOptions& registration, ThreadPool* threads) {
   if (!options.estimate_motion) return Vector6d::Zero();
-  const InitialMotion motion =
-      EstimateInitialMotion(cloud, map_options, association, registration, threads);
+  const InitialMotion motion = EstimateInitialMotion(cloud, map_options, registration, threads);
   const bool is_clear = motion.tau.head<3>().norm() > options.clear_motion_m;
   const double gain = is_clear ? 1.0 : options.min_gain;
   const bool is_believed = motion.agreement > gain * motion.agreement_at_rest;

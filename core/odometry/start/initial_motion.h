@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/odometry/map/map_pyramid.h"
+#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/sensing/segment_cloud.h"
 #include "core/odometry/weights/registration_options.h"
-#include "core/odometry/window/association.h"
 
 namespace trajlo {
 
@@ -19,9 +21,10 @@ struct InitialMotion {
 /// points of its second half, each at its own time on Exp(alpha tau), are registered to those of
 /// its first half, which move with the same tau. A wrong tau blurs the first half by a third of
 /// what it displaces the second, so each round leaves about a third of the error. The voxels start
-/// coarse and shrink. `registration` gives the robust kernel.
+/// coarse and shrink. Where one direction is held weakly, the search is started at many speeds
+/// along it: on a motorway the ground agrees with all of them. `registration` gives the robust
+/// kernel.
 InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
-                                    const AssociationOptions& association,
                                     const RegistrationOptions& registration, ThreadPool* threads);
 
 struct InitializationOptions {
@@ -40,7 +43,6 @@ struct InitializationOptions {
 /// else zero.
 Vector6d MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOptions& options,
                                const MapPyramidOptions& map_options,
-                               const AssociationOptions& association,
                                const RegistrationOptions& registration, ThreadPool* threads);
 
 }  // namespace trajlo

@@ -3,15 +3,15 @@
 
 namespace trajlo {
 
-int AssociateWindow(const MapPyramid& map, const AssociationOptions& options, double threshold_m,
-                    bool renew, ThreadPool* threads, Window* window) {
+int AssociateWindow(const MapPyramid& map, bool renew, ThreadPool* threads, Window* window) {
   int searched = 0;
   for (int k = 0; k < window->size(); ++k) {
     const SE3 T_begin = window->Pose(k);
     Segment& segment = window->segments[static_cast<std::size_t>(k)];
-    searched += segment.association.Associate(segment.cloud.registration_points, T_begin,
-                                              segment.T_world_end, map, options, threshold_m, renew,
-                                              threads, &segment.points);
+    const SegmentCloud& cloud = segment.cloud;
+    searched += segment.association.Associate(cloud.registration_points, cloud.lidar_origins_body_m,
+                                              T_begin, segment.T_world_end, map, renew, threads,
+                                              &segment.points);
   }
   return searched;
 }

@@ -7,10 +7,8 @@
 
 namespace trajlo {
 
-/// Finds the planes of all points of the window, each at its own time on the present poses. `renew`
-/// also looks up again the points that found no plane before (the map may have grown since).
-/// Returns the number of look-ups.
-int AssociateWindow(const MapPyramid& map, const AssociationOptions& options, double threshold_m,
-                    bool renew, ThreadPool* threads, Window* window);
+/// Finds the planes of all points of the window, each at its own time on the present poses. Without
+/// `renew`, segments that lie where they did are left as they are. Returns the number of look-ups.
+int AssociateWindow(const MapPyramid& map, bool renew, ThreadPool* threads, Window* window);
 
 }  // namespace trajlo

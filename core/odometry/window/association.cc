@@ -2,53 +2,81 @@
 #include "core/odometry/window/association.h"
 
 #include <algorithm>
+#include <array>
 
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
+namespace {
 
-int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points, const SE3& T_begin,
-                                  const SE3& T_end, const MapPyramid& map,
-                                  const AssociationOptions& options, double threshold_m, bool renew,
-                                  ThreadPool* threads, std::vector<RegistrationPoint>* associated) {
-  entries_.resize(points.size());
-  const SegmentMotion motion(T_begin, T_end);
-  const double reach_m = options.reach_in_thresholds * threshold_m;
+/// A segment lies where it did if no point of it, up to this far away, has moved by more than this.
+constexpr double kSamePlace_m = 0.003;
+constexpr double kLeverArm_m = 20.0;
 
-  constexpr std::size_t kChunk = 64;
-  const std::size_t chunks = (points.size() + kChunk - 1) / kChunk;
-  chunk_searched_.assign(chunks, 0);
-  threads->ParallelFor(chunks, [&](std::size_t chunk) {
-    const std::size_t last = std::min(points.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < last; ++i) {
-      Entry& entry = entries_[i];
-      const Eigen::Vector3d p_world =
-          motion.ToWorld(points[i].alpha, points[i].p_body_m.cast<double>());
-      const bool stands =
-          entry.state == Entry::State::kPlane || (entry.state == Entry::State::kNone && !renew);
-      if (stands && (p_world - entry.looked_up_at).norm() <= entry.keep_m) continue;
-      entry.looked_up_at = p_world;
-      ++chunk_searched_[chunk];
-      const Eigen::Vector3d sensor_world = motion.ToWorld(points[i].alpha, Eigen::Vector3d::Zero());
-      const Eigen::Vector3d ray_world = (p_world - sensor_world).normalized();
-      const bool found = map.FindPlane(p_world, ray_world, options.plane, reach_m, &entry.plane);
-      entry.state = found ? Entry::State::kPlane : Entry::State::kNone;
-      entry.keep_m =
-          options.reassociate_distance_m * (found ? entry.plane.scale : map.coarsest_scale());
-    }
-  });
-
-  int searched = 0;
-  for (const int count : chunk_searched_) searched += count;
-  if (searched == 0) return 0;  // No plane has changed.
-  associated->clear();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Entry& entry = entries_[i];
-    if (entry.state != Entry::State::kPlane) continue;
-    associated->push_back({points[i].p_body_m.cast<double>(), points[i].alpha,
-                           entry.plane.normal_world, entry.plane.offset_m, entry.plane.weight});
+/// Looks up the planes of at most kMaxBatch points; returns how many have one.
+std::size_t AssociateBatch(const SegmentPoint* points, std::size_t count,
+                           const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
+                           const SegmentMotion& motion, const MapPyramid& map,
+                           RegistrationPoint* found) {
+  std::array<Eigen::Vector3d, MapPyramid::kMaxBatch> places_world, rays_world;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double alpha = points[i].alpha;
+    places_world[i] = motion.ToWorld(alpha, points[i].p_body_m.cast<double>());
+    const Eigen::Vector3d lidar_world =
+        motion.ToWorld(alpha, lidar_origins_body_m[points[i].lidar]);
+    rays_world[i] = (places_world[i] - lidar_world).normalized();
   }
-  return searched;
+  std::array<Plane, MapPyramid::kMaxBatch> planes;
+  map.FindPlanes(places_world.data(), rays_world.data(), count, planes.data());
+  std::size_t found_count = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!planes[i].exists()) continue;
+    found[found_count++] = {points[i].p_body_m.cast<double>(), points[i].alpha,
+                            planes[i].normal_world, planes[i].offset_m, planes[i].weight};
+  }
+  return found_count;
+}
+
+}  // namespace
+
+bool SegmentAssociation::HasMoved(const SE3& T_begin, const SE3& T_end) const {
+  const auto moved_by = [](const SE3& a, const SE3& b) {
+    return (a.t - b.t).norm() + kLeverArm_m * a.q.angularDistance(b.q);
+  };
+  return moved_by(T_begin_, T_begin) > kSamePlace_m || moved_by(T_end_, T_end) > kSamePlace_m;
+}
+
+int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
+                                  const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
+                                  const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
+                                  bool renew, ThreadPool* threads,
+                                  std::vector<RegistrationPoint>* associated) {
+  if (is_associated_ && !renew && !HasMoved(T_begin, T_end)) return 0;
+  is_associated_ = true;
+  T_begin_ = T_begin;
+  T_end_ = T_end;
+  const SegmentMotion motion(T_begin, T_end);
+  constexpr std::size_t kChunk = MapPyramid::kMaxBatch;
+  const std::size_t chunks = (points.size() + kChunk - 1) / kChunk;
+  associated->resize(points.size());
+  chunk_found_.resize(chunks);
+  threads->ParallelFor(chunks, [&](std::size_t chunk) {
+    const std::size_t first = chunk * kChunk;
+    chunk_found_[chunk] = AssociateBatch(&points[first], std::min(kChunk, points.size() - first),
+                                         lidar_origins_body_m, motion, map, &(*associated)[first]);
+  });
+  // The chunks close up.
+  std::size_t end = 0;
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+    const auto first = associated->begin() + static_cast<std::ptrdiff_t>(chunk * kChunk);
+    const auto last = first + static_cast<std::ptrdiff_t>(chunk_found_[chunk]);
+    if (end < chunk * kChunk) {
+      std::move(first, last, associated->begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    end += chunk_found_[chunk];
+  }
+  associated->resize(end);
+  return static_cast<int>(points.size());
 }
 
 }  // namespace trajlo

@@ -28,7 +28,8 @@ class RegistrationEvaluator {
 };
 
 /// The registration at `xi` away from where it was linearised, to first order and with the kernel's
-/// weights of there: g + H xi, cost + gᵀxi + ½ xiᵀH xi. `xi` stacks the right perturbations of all poses.
+/// weights of there: g + H xi, cost + gᵀxi + ½ xiᵀH xi. `xi` stacks the right perturbations of all
+/// poses.
 void ShiftRegistration(const Eigen::VectorXd& xi,
                        std::vector<RegistrationNormalEquations>* equations);
 

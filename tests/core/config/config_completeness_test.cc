@@ -57,9 +57,9 @@ std::string ReadFile(const std::filesystem::path& path) {
 
 TEST(ConfigCompleteness, EveryFieldOfTheOptionsHasAKey) {
   EXPECT_EQ(FieldCount<SegmenterOptions>(), KeysIn("segmenter") + KeysIn("sensor"));
-  EXPECT_EQ(FieldCount<MapOptions>() + FieldCount<MapPyramidOptions>() - 1, KeysIn("map"));
-  EXPECT_EQ(FieldCount<AssociationOptions>(), KeysIn("association") + 1);  // `plane`
-  EXPECT_EQ(FieldCount<PlaneFitOptions>(), KeysIn("association.plane"));
+  // `finest` and `plane`.
+  EXPECT_EQ(FieldCount<MapOptions>() + FieldCount<MapPyramidOptions>(), KeysIn("map") + 2);
+  EXPECT_EQ(FieldCount<PlaneFitOptions>(), KeysIn("map.plane"));
   EXPECT_EQ(FieldCount<AdaptiveThresholdOptions>(), KeysIn("threshold"));
   EXPECT_EQ(FieldCount<RegistrationOptions>(), KeysIn("registration"));
   EXPECT_EQ(FieldCount<MotionPriorOptions>(), KeysIn("motion_prior"));
@@ -69,7 +69,7 @@ TEST(ConfigCompleteness, EveryFieldOfTheOptionsHasAKey) {
   EXPECT_EQ(FieldCount<WindowOptions>(), KeysIn("window"));
   EXPECT_EQ(FieldCount<InitializationOptions>(), KeysIn("initialization"));
   EXPECT_EQ(FieldCount<LostOptions>(), KeysIn("lost"));
-  EXPECT_EQ(FieldCount<OdometryOptions>(), 11 + KeysIn(""));  // Eleven sections.
+  EXPECT_EQ(FieldCount<OdometryOptions>(), 10 + KeysIn(""));  // Ten sections.
   EXPECT_EQ(FieldCount<RecordingOptions>(), KeysIn("input"));
 }
 

@@ -11,34 +11,38 @@ namespace trajlo {
 namespace {
 
 /// Voxels of 0.4, 0.8, 1.6 and 3.2 m, to which the scenes below are made.
-MapPyramid MakeMap() {
+MapPyramid MakeMap(const PlaneFitOptions& plane, const std::vector<Eigen::Vector3d>& points) {
   MapPyramidOptions options;
   options.finest.voxel_size_m = 0.4;
   options.finest.min_point_spacing_m = 0.08;
-  return MapPyramid(options);
+  options.plane = plane;
+  MapPyramid map(options);
+  map.Insert(points);
+  return map;
 }
 
 TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
-  // A noisy floor: small planes of it tilt, and the wide one hardly does.
+  // A noisy floor: small planes of it tilt, and the wide one hardly does. (It does not lie between
+  // voxels: there, the points of both would be nearer to each other than their spacing.)
   testing::Random random(13);
   std::vector<Eigen::Vector3d> floor;
   for (int i = 0; i < 20000; ++i) {
-    floor.emplace_back(random.Uniform(-4, 4), random.Uniform(-4, 4), random.Gaussian(0.015));
+    floor.emplace_back(random.Uniform(-4, 4), random.Uniform(-4, 4), 0.2 + random.Gaussian(0.015));
   }
-  MapPyramid map = MakeMap();
-  map.Insert(floor);
-  PlaneFitOptions wide, fine;
-  fine.max_wide_flatness = 0.0;
+  PlaneFitOptions no_wide;
+  no_wide.max_wide_flatness = 0.0;
+  const MapPyramid wide = MakeMap({}, floor), fine = MakeMap(no_wide, floor);
   const Eigen::Vector3d ray(0.8, 0.0, -0.6);
   double tilt_wide = 0.0, tilt_fine = 0.0;
   for (int i = 0; i < 100; ++i) {
-    const Eigen::Vector3d query(random.Uniform(-2, 2), random.Uniform(-2, 2), 0.0);
-    Plane plane;
-    ASSERT_TRUE(map.FindPlane(query, ray, wide, 1.0, &plane));
+    const Eigen::Vector3d query(random.Uniform(-2, 2), random.Uniform(-2, 2), 0.2);
+    Plane plane = wide.FindPlane(query, ray);
+    ASSERT_TRUE(plane.exists());
     EXPECT_GT(plane.scale, 1.0);
     EXPECT_GT(plane.weight, 0.7);  // Not divided by the ratio of its level.
     tilt_wide += plane.normal_world.head<2>().norm();
-    ASSERT_TRUE(map.FindPlane(query, ray, fine, 1.0, &plane));
+    plane = fine.FindPlane(query, ray);
+    ASSERT_TRUE(plane.exists());
     EXPECT_LE(plane.scale, 2.0);
     tilt_fine += plane.normal_world.head<2>().norm();
   }
@@ -53,10 +57,9 @@ TEST(MapPyramid, TakesTheFinePlaneWhereTheWideOneIsNotThin) {
       stairs.emplace_back(x, y, 0.3 * std::floor(x / 0.5));
     }
   }
-  MapPyramid map = MakeMap();
-  map.Insert(stairs);
-  Plane plane;
-  ASSERT_TRUE(map.FindPlane({0.25, 0.0, 0.01}, {0.8, 0.0, -0.6}, {}, 1.0, &plane));
+  const MapPyramid map = MakeMap({}, stairs);
+  Plane plane = map.FindPlane({0.25, 0.0, 0.01}, {0.8, 0.0, -0.6});
+  ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
   EXPECT_NEAR(plane.offset_m * plane.normal_world.z(), 0.0, 1e-6);
   EXPECT_LT(plane.scale, 4.0);
@@ -71,17 +74,18 @@ TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
   for (double y = 1.5; y < 1.71; y += 0.05) {
     for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(4.65, y, z);
   }
-  MapPyramid map = MakeMap();
-  map.Insert(wall_then_post);
+  const MapPyramid map = MakeMap({}, wall_then_post);
   const Eigen::Vector3d ray(1.0, 0.0, 0.0);
-  Plane plane;
-  ASSERT_TRUE(map.FindPlane({4.66, 1.6, 1.0}, ray, {}, 1.0, &plane));
+  Plane plane = map.FindPlane({4.66, 1.6, 1.0}, ray);
+  ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 4.65, 0.01);
   PlaneFitOptions anywhere;
   anywhere.max_wide_distance_in_widths = 100.0;
-  ASSERT_TRUE(map.FindPlane({4.66, 1.6, 1.0}, ray, anywhere, 1.0, &plane));
+  plane = MakeMap(anywhere, wall_then_post).FindPlane({4.66, 1.6, 1.0}, ray);
+  ASSERT_TRUE(plane.exists());
   EXPECT_GT(plane.offset_m * plane.normal_world.x(), 4.9);
-  ASSERT_TRUE(map.FindPlane({5.01, -2.0, 1.0}, ray, {}, 1.0, &plane));
+  plane = map.FindPlane({5.01, -2.0, 1.0}, ray);
+  ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 5.0, 1e-6);
   EXPECT_GT(plane.scale, 1.0);
 }
@@ -99,16 +103,16 @@ TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
       points.emplace_back(5.0 + random.Uniform(0.0, 0.3), y, z);
     }
   }
-  MapPyramid map = MakeMap();
-  map.Insert(points);
+  const MapPyramid map = MakeMap({}, points);
   const Eigen::Vector3d query(5.15, 0.0, 0.0), ray(1.0, 0.0, 0.0);
-  PlaneFitOptions options;
-  Plane plane;
-  ASSERT_TRUE(map.FindPlane(query, ray, options, 1.0, &plane));
+  Plane plane = map.FindPlane(query, ray);
+  ASSERT_TRUE(plane.exists());
   EXPECT_GT(std::abs(plane.normal_world.x()), 0.9);
+  PlaneFitOptions options;
   options.min_incidence_sine = 0.0;
   options.max_wide_flatness = 0.0;
-  ASSERT_TRUE(map.FindPlane(query, ray, options, 1.0, &plane));
+  plane = MakeMap(options, points).FindPlane(query, ray);
+  ASSERT_TRUE(plane.exists());
   EXPECT_GT(std::abs(plane.normal_world.z()), 0.9);
 }
 
@@ -117,10 +121,9 @@ TEST(MapPyramid, TakesAPlaneAlongTheRayWhereThereIsNoOther) {
   for (double x = -1.0; x < 1.0; x += 0.05) {
     for (double y = -1.0; y < 1.0; y += 0.05) ground.emplace_back(x, y, 0.0);
   }
-  MapPyramid map = MakeMap();
-  map.Insert(ground);
-  Plane plane;
-  ASSERT_TRUE(map.FindPlane({0, 0, 0}, {0.999, 0.0, -0.0447}, {}, 1.0, &plane));
+  const MapPyramid map = MakeMap({}, ground);
+  Plane plane = map.FindPlane({0, 0, 0}, {0.999, 0.0, -0.0447});
+  ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
   EXPECT_EQ(plane.scale, 1.0);
 }

@@ -35,10 +35,12 @@ TEST(PlaneFit, FindsThePlaneOfANoiselessPatchAnywhereInTheWorld) {
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d normal = random.Direction();
     const Eigen::Vector3d center = 1e5 * random.Direction();
-    Plane plane;
-    ASSERT_TRUE(FitPlane(Patch(&random, normal, center, 0.5, 0.5, 0.0), {}, 0.1, &plane));
-    EXPECT_NEAR(std::abs(plane.normal_world.dot(normal)), 1.0, 1e-6);
-    EXPECT_NEAR(plane.normal_world.dot(center), plane.offset_m, 1e-5);
+    const Eigen::Vector3d asked_at = center + 0.2 * random.Direction();
+    const FittedPlane plane =
+        FitPlane(Patch(&random, normal, center, 0.5, 0.5, 0.0), asked_at, {}, 0.1);
+    ASSERT_TRUE(plane.exists());
+    EXPECT_NEAR(std::abs(plane.normal_world.cast<double>().dot(normal)), 1.0, 1e-6);
+    EXPECT_NEAR(plane.normal_world.cast<double>().dot(center - asked_at), plane.offset_m, 1e-5);
   }
 }
 
@@ -46,30 +48,33 @@ TEST(PlaneFit, AgreesWithAnIterativeEigensolver) {
   testing::Random random(2);
   for (int i = 0; i < 200; ++i) {
     const Neighbors n = Patch(&random, random.Direction(), {1, 2, 3}, 0.5, 0.3, 0.02);
-    Plane plane;
-    if (!FitPlane(n, {}, 0.1, &plane)) continue;
+    const FittedPlane plane = FitPlane(n, {1, 2, 3}, {}, 0.1);
+    if (!plane.exists()) continue;
     Eigen::Matrix<double, 3, 8> P;
     for (int j = 0; j < 8; ++j) P.col(j) << n.x[j], n.y[j], n.z[j];
     const Eigen::Vector3d mean = P.rowwise().mean();
     const Eigen::Matrix3d C = (P.colwise() - mean) * (P.colwise() - mean).transpose() / 8.0;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(C);
-    EXPECT_NEAR(std::abs(plane.normal_world.dot(eigen.eigenvectors().col(0))), 1.0, 1e-9);
-    EXPECT_NEAR(plane.thickness_m, std::sqrt(eigen.eigenvalues()[0]), 1e-8);
-    EXPECT_NEAR(plane.width_m, std::sqrt(eigen.eigenvalues()[1]), 1e-8);
+    const Eigen::Vector3d normal = plane.normal_world.cast<double>();
+    EXPECT_NEAR(std::abs(normal.dot(eigen.eigenvectors().col(0))), 1.0, 1e-6);
+    EXPECT_NEAR(plane.offset_m, normal.dot(mean), 1e-6);
+    EXPECT_NEAR(plane.thickness_m, std::sqrt(eigen.eigenvalues()[0]), 1e-7);
+    EXPECT_NEAR(plane.width_m, std::sqrt(eigen.eigenvalues()[1]), 1e-7);
   }
 }
 
 TEST(PlaneFit, RefusesAScanLineAThickCloudAndTooFewPoints) {
   testing::Random random(3);
-  Plane plane;
-  EXPECT_FALSE(FitPlane(Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 0.01, 0.001), {}, 0.1, &plane))
+  const Eigen::Vector3d up(0, 0, 1), origin(0, 0, 0);
+  const auto fit = [&](const Neighbors& n) { return FitPlane(n, origin, {}, 0.1); };
+  EXPECT_FALSE(fit(Patch(&random, up, origin, 1.0, 0.01, 0.001)).exists())
       << "points on one ring have no normal";
-  EXPECT_FALSE(FitPlane(Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 1.0, 0.6), {}, 0.1, &plane));
-  Neighbors few = Patch(&random, {0, 0, 1}, {0, 0, 0}, 1.0, 1.0, 0.0);
+  EXPECT_FALSE(fit(Patch(&random, up, origin, 1.0, 1.0, 0.6)).exists());
+  Neighbors few = Patch(&random, up, origin, 1.0, 1.0, 0.0);
   few.count = 4;
-  EXPECT_FALSE(FitPlane(few, {}, 0.1, &plane));
+  EXPECT_FALSE(fit(few).exists());
   few.count = 0;
-  EXPECT_FALSE(FitPlane(few, {}, 0.1, &plane));
+  EXPECT_FALSE(fit(few).exists());
 }
 
 }  // namespace

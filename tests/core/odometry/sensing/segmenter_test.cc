@@ -172,8 +172,11 @@ TEST(Segmenter, MergesLidarsInTheBodyFrameAndWaitsForTheSlowerOne) {
   bool first = false, second = false;
   for (const SegmentPoint& point : clouds[1].map_points) {
     (point.p_body_m.z() > 50 ? second : first) = true;
+    EXPECT_EQ(point.lidar, point.p_body_m.z() > 50 ? 1 : 0);
   }
   EXPECT_TRUE(first && second);
+  const std::vector<Eigen::Vector3d> origins = {{0, 0, 0}, {0, 0, 100}};
+  EXPECT_EQ(clouds[1].lidar_origins_body_m, origins);
 }
 
 TEST(Segmenter, DoesNotWaitForeverForALidarThatFellSilent) {

@@ -33,7 +33,7 @@ Vector6d Twist(double forward_m_s, double yaw_rad_s) {
 
 InitialMotion Estimate(const SegmentCloud& cloud) {
   ThreadPool threads(1);
-  return EstimateInitialMotion(cloud, {}, {}, {}, &threads);
+  return EstimateInitialMotion(cloud, {}, {}, &threads);
 }
 
 TEST(InitialMotion, FindsAConstantTwist) {
@@ -50,7 +50,7 @@ TEST(InitialMotion, FindsAConstantTwist) {
 TEST(InitialMotion, AtRestIsTakenForRest) {
   ThreadPool threads(1);
   const SegmentCloud cloud = FirstInterval(Vector6d::Zero());
-  EXPECT_EQ(MotionOfFirstInterval(cloud, {}, {}, {}, {}, &threads), Vector6d(Vector6d::Zero()));
+  EXPECT_EQ(MotionOfFirstInterval(cloud, {}, {}, {}, &threads), Vector6d(Vector6d::Zero()));
 }
 
 TEST(InitialMotion, IsNotLookedForWhereItIsSwitchedOff) {
@@ -58,16 +58,16 @@ TEST(InitialMotion, IsNotLookedForWhereItIsSwitchedOff) {
   InitializationOptions options;
   options.estimate_motion = false;
   const SegmentCloud cloud = FirstInterval(Twist(2.0, 0.0));
-  EXPECT_EQ(MotionOfFirstInterval(cloud, options, {}, {}, {}, &threads),
+  EXPECT_EQ(MotionOfFirstInterval(cloud, options, {}, {}, &threads),
             Vector6d(Vector6d::Zero()));
-  EXPECT_NEAR(MotionOfFirstInterval(cloud, {}, {}, {}, {}, &threads)[0], 0.6, 0.05);
+  EXPECT_NEAR(MotionOfFirstInterval(cloud, {}, {}, {}, &threads)[0], 0.6, 0.05);
 }
 
 TEST(InitialMotion, DoesNotDependOnThreads) {
   const SegmentCloud cloud = FirstInterval(Twist(1.0, 0.5));
   ThreadPool one(1), two(2);
-  EXPECT_EQ(EstimateInitialMotion(cloud, {}, {}, {}, &one).tau,
-            EstimateInitialMotion(cloud, {}, {}, {}, &two).tau);
+  EXPECT_EQ(EstimateInitialMotion(cloud, {}, {}, &one).tau,
+            EstimateInitialMotion(cloud, {}, {}, &two).tau);
 }
 
 TEST(InitialMotion, OfNothingIsNothing) {

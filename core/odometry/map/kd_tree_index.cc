@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/map/kd_tree_map.h"
+#include "core/odometry/map/kd_tree_index.h"
 
 #include <algorithm>
 #include <nanoflann.hpp>
@@ -7,7 +7,7 @@
 namespace trajlo {
 
 /// nanoflann keeps a logarithmic number of trees, so that points may be added one after another.
-struct KdTreeMap::Index {
+struct KdTreeIndex::Index {
   struct Cloud {
     std::vector<Eigen::Vector3d> points;
     std::size_t kdtree_get_point_count() const { return points.size(); }
@@ -34,35 +34,16 @@ struct KdTreeMap::Index {
   }
 };
 
-KdTreeMap::KdTreeMap(const MapOptions& options)
-    : store_(options), index_(std::make_unique<Index>()) {}
+KdTreeIndex::KdTreeIndex() : index_(std::make_unique<Index>()) {}
+KdTreeIndex::~KdTreeIndex() = default;
 
-KdTreeMap::~KdTreeMap() = default;
-
-void KdTreeMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
-                       std::vector<Eigen::Vector3d>* accepted) {
-  std::vector<Eigen::Vector3d> added;
-  store_.Insert(points_world, &added);
-  index_->Add(added);
-  if (accepted != nullptr) accepted->insert(accepted->end(), added.begin(), added.end());
+void KdTreeIndex::Add(const std::vector<Eigen::Vector3d>& points_world) {
+  index_->Add(points_world);
 }
 
-void KdTreeMap::RemoveFar(const Eigen::Vector3d& center_world) {
-  const std::size_t before = store_.size();
-  store_.RemoveFar(center_world);
-  if (store_.size() != before) Rebuild();
-}
+void KdTreeIndex::Clear() { index_ = std::make_unique<Index>(); }
 
-void KdTreeMap::Rebuild() {
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(store_.size());
-  store_.ForEachPoint([&](const Eigen::Vector3d& p) { points.push_back(p); });
-  index_ = std::make_unique<Index>();
-  index_->Add(points);
-}
-
-void KdTreeMap::Nearest(const Eigen::Vector3d& query_world, int k, int /*at_least*/,
-                        Neighbors* neighbors) const {
+void KdTreeIndex::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const {
   std::size_t indices[kMaxNeighbors];
   double squared[kMaxNeighbors];
   neighbors->count = 0;

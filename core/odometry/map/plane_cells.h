@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "core/odometry/map/plane_fit.h"
+
+namespace trajlo {
+
+/// The planes of a map, one for each eighth of a voxel that is a site, fitted when first asked for.
+///
+/// A plane stands until the number of points around its site has grown by more than an eighth and
+/// one. It is a function of the place and of the map at the time of the fit, and the map stands
+/// still while planes are asked for: so no answer depends on which thread came first. One of them
+/// claims the cell; another that finds it claimed fits for itself.
+class PlaneCells {
+ public:
+  static constexpr std::uint32_t kPerSite = 8;
+
+  /// For sites with numbers below `sites`. Not beside Get().
+  void Resize(std::size_t sites) { cells_.resize(kPerSite * sites); }
+  /// Forgets the planes of a site. Not beside Get().
+  void Clear(std::uint32_t site) {
+    for (std::uint32_t i = 0; i < kPerSite; ++i) {
+      cells_[kPerSite * site + i].fitted_at.store(kNever, std::memory_order_relaxed);
+    }
+  }
+
+  void Prefetch(std::uint32_t site, std::uint32_t cell) const {
+    __builtin_prefetch(&cells_[kPerSite * site + cell]);
+  }
+
+  /// The plane that is kept, or else that of `fit()`. `points_around` > 0.
+  template <typename Fit>
+  FittedPlane Get(std::uint32_t site, std::uint32_t cell, std::uint32_t points_around,
+                  const Fit& fit) const {
+    Cell& kept = cells_[kPerSite * site + cell];
+    std::uint32_t fitted_at = kept.fitted_at.load(std::memory_order_acquire);
+    if (Stands(fitted_at, points_around)) return kept.plane;
+    const bool is_mine =
+        fitted_at != kClaimed &&
+        kept.fitted_at.compare_exchange_strong(fitted_at, kClaimed, std::memory_order_relaxed);
+    const FittedPlane plane = fit();
+    if (is_mine) {
+      kept.plane = plane;
+      kept.fitted_at.store(points_around, std::memory_order_release);
+    }
+    return plane;
+  }
+
+  std::size_t size() const { return cells_.size(); }
+
+ private:
+  static constexpr std::uint32_t kNever = 0;
+  static constexpr std::uint32_t kClaimed = ~std::uint32_t{0};
+
+  struct alignas(32) Cell {
+    Cell() = default;
+    // Only to let the vector grow, which no query runs beside.
+    Cell(const Cell& other)
+        : plane(other.plane), fitted_at(other.fitted_at.load(std::memory_order_relaxed)) {}
+
+    FittedPlane plane;
+    std::atomic<std::uint32_t> fitted_at{kNever};  ///< Points around its site at the fit.
+  };
+
+  static bool Stands(std::uint32_t fitted_at, std::uint32_t points_around) {
+    // A claimed one counts more points than there can be.
+    return fitted_at != kNever && fitted_at <= points_around &&
+           points_around - fitted_at <= fitted_at / 8 + 1;
+  }
+
+  mutable std::vector<Cell> cells_;
+};
+
+}  // namespace trajlo

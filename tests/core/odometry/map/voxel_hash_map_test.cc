@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/map/voxel_hash_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "core/odometry/map/kd_tree_index.h"
+#include "tests/support/random_poses.h"
+
+namespace trajlo {
+namespace {
+
+std::vector<Eigen::Vector3d> RandomPoints(int count, double half_size,
+                                          const Eigen::Vector3d& center, unsigned seed) {
+  testing::Random random(seed);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < count; ++i) {
+    points.push_back(center + Eigen::Vector3d(random.Uniform(-half_size, half_size),
+                                              random.Uniform(-half_size, half_size),
+                                              random.Uniform(-half_size, half_size)));
+  }
+  return points;
+}
+
+VoxelHashMap MakeMap(double voxel_m, double spacing_m, double radius_m = 100.0) {
+  return VoxelHashMap(voxel_m, spacing_m, radius_m, 5);
+}
+
+std::vector<Eigen::Vector3d> Stored(const VoxelHashMap& map) {
+  std::vector<Eigen::Vector3d> points;
+  map.ForEachPoint([&](const Eigen::Vector3d& p) { points.push_back(p); });
+  return points;
+}
+
+/// The k smallest distances among the stored points of the seven voxels around the query.
+std::vector<double> SevenVoxelDistances(const VoxelHashMap& map, const Eigen::Vector3d& query,
+                                        double voxel, int k) {
+  std::vector<double> distances;
+  const Eigen::Vector3d own = (query / voxel).array().floor();
+  map.ForEachPoint([&](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d cell = (p / voxel).array().floor();
+    if ((cell - own).cwiseAbs().sum() <= 1.0) distances.push_back((p - query).norm());
+  });
+  std::sort(distances.begin(), distances.end());
+  if (distances.size() > static_cast<std::size_t>(k)) distances.resize(k);
+  return distances;
+}
+
+TEST(VoxelHashMap, FindsTheNearestPointsOfItsSevenVoxels) {
+  // Negative coordinates, too: indices must be floored, not truncated.
+  VoxelHashMap map = MakeMap(0.7, 0.05);
+  map.Insert(RandomPoints(30000, 5.0, Eigen::Vector3d::Zero(), 1));
+  for (const auto& query : RandomPoints(500, 5.2, Eigen::Vector3d::Zero(), 2)) {
+    for (int k : {1, 5, 8, 20}) {
+      Neighbors found;
+      map.Nearest(query, k, &found);
+      const auto expected = SevenVoxelDistances(map, query, 0.7, k);
+      ASSERT_EQ(found.count, static_cast<int>(expected.size()));
+      for (int i = 0; i < found.count; ++i) {
+        EXPECT_NEAR(std::sqrt(found.squared_distance[i]), expected[i], 1e-5);
+        const Eigen::Vector3d p =
+            found.origin_world + Eigen::Vector3d(found.x[i], found.y[i], found.z[i]);
+        EXPECT_NEAR((p - query).norm(), expected[i], 1e-5);
+      }
+    }
+  }
+}
+
+TEST(VoxelHashMap, KnowsHowManyPointsThereAreAroundEveryVoxel) {
+  // Small voxels, and a part of the map removed twice: numbers of sites are given anew.
+  VoxelHashMap map = MakeMap(0.5, 0.0, 12.0);
+  std::vector<std::uint32_t> changed;
+  for (int pass = 0; pass < 3; ++pass) {
+    const Eigen::Vector3d center(8.0 * pass, 0, 0);
+    map.Insert(RandomPoints(20000, 10.0, center, 11 + static_cast<unsigned>(pass)));
+    map.RemoveFar(center, &changed);
+  }
+  EXPECT_GT(changed.size(), 1000u);
+  std::map<std::array<int, 3>, unsigned> around;
+  for (const Eigen::Vector3d& p : Stored(map)) {
+    const VoxelKey key = map.KeyOf(p);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int step : {-1, 1}) {
+        VoxelKey near = key;
+        near[axis] += step;
+        ++around[{near.x(), near.y(), near.z()}];
+      }
+    }
+    ++around[{key.x(), key.y(), key.z()}];
+  }
+  EXPECT_EQ(map.index().size(), around.size());
+  std::set<std::uint32_t> sites;
+  for (const auto& [key, points] : around) {
+    const VoxelIndex::Entry* entry = map.index().Find({key[0], key[1], key[2]});
+    ASSERT_NE(entry, nullptr);
+    EXPECT_EQ(entry->points_around, points);
+    EXPECT_EQ(entry->site != VoxelIndex::kNoSite, points >= 5);
+    if (points < 5) continue;
+    EXPECT_LT(entry->site, map.site_capacity());
+    EXPECT_TRUE(sites.insert(entry->site).second);
+  }
+  EXPECT_GT(sites.size(), 1000u);
+}
+
+TEST(VoxelHashMap, IsBoundedByVoxelsTimesTwentyPoints) {
+  VoxelHashMap map = MakeMap(1.0, 0.0);
+  Neighbors found;
+  map.Nearest({0, 0, 0}, 5, &found);
+  EXPECT_EQ(found.count, 0);
+  map.Insert(RandomPoints(50000, 1.0, Eigen::Vector3d::Zero(), 7));
+  EXPECT_EQ(map.size(), 8u * 20u);
+  EXPECT_EQ(Stored(map).size(), map.size());
+}
+
+TEST(VoxelHashMap, DropsWhatIsFarAndKeepsWhatIsNear) {
+  VoxelHashMap map = MakeMap(0.5, 0.0, 10.0);
+  std::vector<std::uint32_t> changed;
+  map.Insert(RandomPoints(2000, 2.0, {0, 0, 0}, 8));
+  const std::vector<Eigen::Vector3d> near = Stored(map);
+  map.Insert(RandomPoints(2000, 2.0, {30, 0, 0}, 9));
+  map.RemoveFar({0, 0, 0}, &changed);
+  EXPECT_EQ(Stored(map), near);
+  map.RemoveFar({30, 0, 0}, &changed);
+  EXPECT_EQ(map.size(), 0u);
+  EXPECT_EQ(map.index().size(), 0u);
+  map.Insert(RandomPoints(2000, 2.0, {30, 0, 0}, 9));
+  Neighbors found;
+  map.Nearest({30, 0, 0}, 5, &found);
+  EXPECT_EQ(found.count, 5);
+}
+
+TEST(VoxelHashMap, StaysAsSmallAsItsSurroundingsOnALongWay) {
+  VoxelHashMap map = MakeMap(0.5, 0.1, 10.0);
+  std::vector<std::uint32_t> changed;
+  std::size_t sites = 0, entries = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::Vector3d center(2.0 * i, 0, 0);
+    map.Insert(RandomPoints(4000, 5.0, center, static_cast<unsigned>(i)));
+    map.RemoveFar(center, &changed);
+    if (i == 15) {
+      sites = map.site_capacity();
+      entries = map.index().size();
+    }
+  }
+  EXPECT_GT(sites, 1000u);
+  EXPECT_LT(static_cast<double>(map.site_capacity()), 1.1 * static_cast<double>(sites));
+  EXPECT_LT(static_cast<double>(map.index().size()), 1.1 * static_cast<double>(entries));
+}
+
+TEST(VoxelHashMap, IsPreciseAMillionMetresFromTheOrigin) {
+  const Eigen::Vector3d far(1e6, -1e6, 1e6);
+  VoxelHashMap map = MakeMap(0.2, 0.0);
+  map.Insert({far + Eigen::Vector3d(0.01, 0.02, 0.03), far + Eigen::Vector3d(0.05, 0.02, 0.03)});
+  Neighbors found;
+  map.Nearest(far + Eigen::Vector3d(0.02, 0.02, 0.03), 5, &found);
+  ASSERT_EQ(found.count, 2);
+  EXPECT_NEAR(std::sqrt(found.squared_distance[0]), 0.01, 1e-6);
+  EXPECT_NEAR(std::sqrt(found.squared_distance[1]), 0.03, 1e-6);
+}
+
+TEST(VoxelHashMap, SurvivesPointsThatRanAway) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  VoxelHashMap map = MakeMap(0.2, 0.1);
+  map.Insert({{1e300, 0, 0}, {kNan, 0, 0}, {0, -1e300, kNan}, {0, 0, 0}});
+  Neighbors found;
+  map.Nearest({0.01, 0, 0}, 5, &found);
+  EXPECT_EQ(found.count, 1);
+  map.Nearest({kNan, kNan, kNan}, 5, &found);
+  map.Nearest({1e300, -1e300, 0}, 5, &found);
+  std::vector<std::uint32_t> changed;
+  map.RemoveFar({0, 0, 0}, &changed);
+  EXPECT_EQ(Stored(map).size(), map.size());
+}
+
+TEST(VoxelHashMap, KeepsPointsOfAVoxelApart) {
+  VoxelHashMap map = MakeMap(1.0, 0.25);
+  map.Insert(RandomPoints(5000, 2.0, {0, 0, 0}, 10));
+  const std::vector<Eigen::Vector3d> stored = Stored(map);
+  for (std::size_t i = 0; i < stored.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Eigen::Vector3d a = stored[i].array().floor(), b = stored[j].array().floor();
+      if (a == b) {
+        EXPECT_GE((stored[i] - stored[j]).norm(), 0.25 - 1e-5);
+      }
+    }
+  }
+}
+
+TEST(KdTreeIndex, AgreesWithTheVoxelsWhereTheNeighboursAreInReach) {
+  VoxelHashMap hash = MakeMap(1.0, 0.02);
+  KdTreeIndex tree;
+  const auto points = RandomPoints(20000, 4.0, Eigen::Vector3d::Zero(), 3);
+  for (int batch = 0; batch < 10; ++batch) {
+    std::vector<Eigen::Vector3d> accepted;
+    hash.Insert({points.begin() + batch * 2000, points.begin() + (batch + 1) * 2000}, &accepted);
+    tree.Add(accepted);
+  }
+  int compared = 0;
+  for (const auto& query : RandomPoints(2000, 3.9, Eigen::Vector3d::Zero(), 4)) {
+    Neighbors a, b;
+    hash.Nearest(query, 5, &a);
+    tree.Nearest(query, 5, &b);
+    ASSERT_EQ(b.count, 5);
+    // The hash is exact up to the distance of the nearest voxel that it does not search: the edges.
+    const Eigen::Vector3d in_cell = query.array() - query.array().floor();
+    const Eigen::Vector3d to_face = in_cell.cwiseMin(Eigen::Vector3d::Ones() - in_cell);
+    Eigen::Vector3d sorted = to_face;
+    std::sort(sorted.data(), sorted.data() + 3);
+    const double reach = std::hypot(sorted[0], sorted[1]);
+    if (a.count < 5 || std::sqrt(b.squared_distance[4]) >= reach) continue;
+    ++compared;
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(a.squared_distance[i], b.squared_distance[i], 1e-5);
+  }
+  EXPECT_GT(compared, 100);
+}
+
+TEST(KdTreeIndex, FindsTheNearestPoints) {
+  KdTreeIndex tree;
+  Neighbors found;
+  tree.Nearest({0, 0, 0}, 5, &found);
+  EXPECT_EQ(found.count, 0);
+  for (unsigned pass = 0; pass < 2; ++pass) {
+    std::vector<Eigen::Vector3d> stored =
+        RandomPoints(4000, 8.0, Eigen::Vector3d::Zero(), 5 + pass);
+    tree.Clear();
+    tree.Add(stored);
+    for (const auto& query : RandomPoints(100, 8.0, Eigen::Vector3d::Zero(), 6)) {
+      std::sort(stored.begin(), stored.end(), [&](const auto& a, const auto& b) {
+        return (a - query).squaredNorm() < (b - query).squaredNorm();
+      });
+      tree.Nearest(query, 5, &found);
+      ASSERT_EQ(found.count, 5);
+      for (int i = 0; i < 5; ++i) {
+        EXPECT_NEAR(std::sqrt(found.squared_distance[i]), (stored[i] - query).norm(), 1e-5);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trajlo

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/window/association.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "manifolds/se3_interpolation.h"
+#include "tests/support/random_poses.h"
+
+namespace trajlo {
+namespace {
+
+constexpr double kHalf_m[3] = {8.0, 7.0, 6.0};
+
+/// A place on the walls of a box about the origin, and the axis that the wall is across.
+Eigen::Vector3d OnWalls(testing::Random* random, int* axis = nullptr) {
+  const int across = static_cast<int>(random->Uniform(0.0, 3.0));
+  Eigen::Vector3d p;
+  for (int i = 0; i < 3; ++i) p[i] = random->Uniform(-kHalf_m[i], kHalf_m[i]);
+  p[across] = p[across] > 0.0 ? kHalf_m[across] : -kHalf_m[across];
+  if (axis != nullptr) *axis = across;
+  return p;
+}
+
+/// How far a place on the wall across `axis` is from the other walls.
+double ToNextWall(const Eigen::Vector3d& p, int axis) {
+  double distance_m = 100.0;
+  for (int i = 0; i < 3; ++i) {
+    if (i != axis) distance_m = std::min(distance_m, kHalf_m[i] - std::abs(p[i]));
+  }
+  return distance_m;
+}
+
+MapPyramid BoxMap(int points, unsigned seed, const MapPyramidOptions& options = {}) {
+  testing::Random random(seed);
+  std::vector<Eigen::Vector3d> walls;
+  for (int i = 0; i < points; ++i) walls.push_back(OnWalls(&random));
+  MapPyramid map(options);
+  map.Insert(walls);
+  return map;
+}
+
+/// What an association found.
+struct Found {
+  SegmentAssociation association;
+  std::vector<RegistrationPoint> points;
+};
+
+/// A segment that moves, and points that lie on the walls exactly at their times.
+struct Segment {
+  SE3 T_begin, T_end;
+  std::vector<SegmentPoint> points;
+  std::vector<Eigen::Vector3d> origins = {Eigen::Vector3d::Zero()};
+  std::vector<int> axes;
+
+  Segment(int count, unsigned seed) {
+    testing::Random random(seed);
+    T_begin = se3::Exp(random.Tangent(0.5, 0.4));
+    T_end = Plus(T_begin, random.Tangent(0.2, 0.3));
+    for (int i = 0; i < count; ++i) {
+      int axis = 0;
+      const Eigen::Vector3d p_world = OnWalls(&random, &axis);
+      const auto alpha = static_cast<float>(random.Uniform(0.0, 1.0));
+      const SE3 T = Interpolate(T_begin, T_end, alpha);
+      points.push_back({(T.Inverse() * p_world).cast<float>(), alpha, 0});
+      axes.push_back(axis);
+    }
+  }
+  int Associate(const MapPyramid& map, bool renew, ThreadPool* threads, Found* found) const {
+    return found->association.Associate(points, origins, T_begin, T_end, map, renew, threads,
+                                        &found->points);
+  }
+};
+
+TEST(SegmentAssociation, FindsTheWallsOfABox) {
+  const MapPyramid map = BoxMap(200000, 1);
+  const Segment segment(1000, 2);
+  ThreadPool threads(1);
+  Found found;
+  EXPECT_EQ(segment.Associate(map, true, &threads, &found), 1000);
+  EXPECT_GT(found.points.size(), 970u);
+  const SegmentMotion motion(segment.T_begin, segment.T_end);
+  int inside = 0;
+  std::size_t next = 0;
+  for (const RegistrationPoint& point : found.points) {
+    // In the order of the segment's points.
+    while (next < segment.points.size() &&
+           segment.points[next].p_body_m.cast<double>() != point.p_body_m) {
+      ++next;
+    }
+    ASSERT_LT(next, segment.points.size());
+    EXPECT_EQ(point.alpha, segment.points[next].alpha);
+    EXPECT_NEAR(point.normal_world.norm(), 1.0, 1e-6);
+    EXPECT_GT(point.weight, 0.0);
+    EXPECT_LE(point.weight, 1.0);
+    const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
+    if (ToNextWall(p_world, segment.axes[next]) < 3.0) continue;  // Planes lean over the edges.
+    ++inside;
+    EXPECT_NEAR(point.normal_world.dot(p_world), point.offset_m, 1e-5);
+    EXPECT_NEAR(std::abs(point.normal_world[segment.axes[next]]), 1.0, 1e-5);
+  }
+  EXPECT_GT(inside, 200);
+}
+
+TEST(SegmentAssociation, LeavesOutPointsWithoutPlanes) {
+  const MapPyramid map = BoxMap(200000, 1);
+  Segment segment(200, 3);
+  for (std::size_t i = 0; i < segment.points.size(); i += 2) segment.points[i].p_body_m *= 20.0F;
+  ThreadPool threads(1);
+  Found found;
+  EXPECT_EQ(segment.Associate(map, true, &threads, &found), 200);
+  EXPECT_GT(found.points.size(), 90u);
+  EXPECT_LE(found.points.size(), 100u);
+  for (const RegistrationPoint& point : found.points) {
+    EXPECT_LT(point.p_body_m.norm(), 20.0);
+  }
+  segment.points.clear();
+  EXPECT_EQ(segment.Associate(map, true, &threads, &found), 0);
+  EXPECT_TRUE(found.points.empty());
+}
+
+TEST(SegmentAssociation, IsTheSameToTheByteForAnyNumberOfThreads) {
+  const Segment first(2000, 4), second(2000, 5);
+  std::vector<RegistrationPoint> expected;
+  for (const int count : {1, 2, 5}) {
+    // Each with a map of its own, whose planes are fitted while they are looked up, and again after
+    // the map has grown.
+    MapPyramid map = BoxMap(20000, 1);
+    ThreadPool threads(count);
+    Found found;
+    first.Associate(map, true, &threads, &found);
+    testing::Random random(6);
+    std::vector<Eigen::Vector3d> more;
+    for (int i = 0; i < 20000; ++i) more.push_back(OnWalls(&random));
+    map.Insert(more);
+    second.Associate(map, true, &threads, &found);
+    ASSERT_GT(found.points.size(), 1900u);
+    if (expected.empty()) expected = found.points;
+    ASSERT_EQ(found.points.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(std::memcmp(&found.points[i], &expected[i], sizeof(RegistrationPoint)), 0) << i;
+    }
+  }
+}
+
+TEST(SegmentAssociation, LooksUpAgainOnlyWhereTheSegmentMovedOrIfAskedTo) {
+  const MapPyramid map = BoxMap(20000, 1);
+  Segment segment(500, 7);
+  ThreadPool threads(1);
+  Found found;
+  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 500);
+  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 0);
+  EXPECT_EQ(segment.Associate(map, true, &threads, &found), 500);
+  segment.T_end.t.x() += 0.001;
+  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 0);
+  segment.T_end.t.x() += 0.003;
+  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 500);
+  segment.T_begin.q = segment.T_begin.q * so3::Exp(Eigen::Vector3d(0, 0, 3e-4));
+  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 500);
+}
+
+TEST(SegmentAssociation, JudgesGrazingByTheRayFromThePointsOwnLidar) {
+  // The wall x = 3.1 with recesses of up to 0.3 m, seen densely by one beam of a LiDAR that is 0.8
+  // m off the body's origin, and sparsely elsewhere. The dense points lie in the plane of that
+  // beam, which is along the rays of the LiDAR, but not along those from the body's origin.
+  const Eigen::Vector3d lidar(-0.5, 0.0, 0.6);
+  testing::Random random(8);
+  std::vector<Eigen::Vector3d> walls;
+  const Eigen::Vector3d hit(3.1, 0.0, 0.0);
+  const Eigen::Vector3d ray = (hit - lidar).normalized();
+  for (double y = -0.6; y < 0.6; y += 0.01) {
+    const double depth = random.Uniform(0.0, 0.3);
+    const Eigen::Vector3d at = hit + depth / ray.x() * ray;
+    walls.emplace_back(at.x(), y, at.z() + random.Gaussian(0.002));
+  }
+  for (double z : {-1.4, -0.7, 0.7, 1.4}) {
+    for (double y = -2.0; y < 2.0; y += 0.03) {
+      walls.emplace_back(3.1 + random.Uniform(0.0, 0.3), y, z);
+    }
+  }
+  MapPyramidOptions options;
+  options.finest.voxel_size_m = 0.4;
+  options.finest.min_point_spacing_m = 0.08;
+  MapPyramid map(options);
+  map.Insert(walls);
+  ThreadPool threads(1);
+  Found found;
+  const Eigen::Vector3d middle = hit + 0.15 / ray.x() * ray;
+  const std::vector<SegmentPoint> points = {{middle.cast<float>(), 0.5F, 1}};
+  const auto normal = [&](const Eigen::Vector3d& origin) {
+    found.association.Associate(points, {Eigen::Vector3d::Zero(), origin}, SE3(), SE3(), map, true,
+                                &threads, &found.points);
+    return found.points.at(0).normal_world;
+  };
+  EXPECT_GT(std::abs(normal(lidar).x()), 0.9) << "the wall";
+  EXPECT_GT(std::abs(normal(Eigen::Vector3d::Zero()).z()), 0.9) << "the plane of the beam";
+}
+
+}  // namespace
+}  // namespace trajlo
