@@ -49,9 +49,8 @@ bool SegmentAssociation::HasMoved(const SE3& T_begin, const SE3& T_end) const {
 int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
                                   const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
                                   const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
-                                  bool renew, ThreadPool* threads,
-                                  std::vector<RegistrationPoint>* associated) {
-  if (is_associated_ && !renew && !HasMoved(T_begin, T_end)) return 0;
+                                  ThreadPool* threads, std::vector<RegistrationPoint>* associated) {
+  if (is_associated_ && !HasMoved(T_begin, T_end)) return 0;
   is_associated_ = true;
   T_begin_ = T_begin;
   T_end_ = T_end;

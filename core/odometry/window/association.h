@@ -15,13 +15,12 @@ namespace trajlo {
 class SegmentAssociation {
  public:
   /// Looks up a plane for every point, at its own time on T_begin..T_end; nothing is looked up
-  /// where the segment lies where it did at the last look-up, unless `renew` asks for it (the map
-  /// may have grown since). `lidar_origins_body_m` says where each point's LiDAR is.
-  /// `associated` receives the points that have a plane, in the order of `points`; it stays as it
-  /// is where nothing is looked up. Returns the number of look-ups.
+  /// where the segment lies where it did at the last look-up. `lidar_origins_body_m` says where
+  /// each point's LiDAR is. `associated` receives the points that have a plane, in the order of
+  /// `points`; it stays as it is where nothing is looked up. Returns the number of look-ups.
   int Associate(const std::vector<SegmentPoint>& points,
                 const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const SE3& T_begin,
-                const SE3& T_end, const MapPyramid& map, bool renew, ThreadPool* threads,
+                const SE3& T_end, const MapPyramid& map, ThreadPool* threads,
                 std::vector<RegistrationPoint>* associated);
 
  private:

@@ -68,8 +68,8 @@ struct Segment {
       axes.push_back(axis);
     }
   }
-  int Associate(const MapPyramid& map, bool renew, ThreadPool* threads, Found* found) const {
-    return found->association.Associate(points, origins, T_begin, T_end, map, renew, threads,
+  int Associate(const MapPyramid& map, ThreadPool* threads, Found* found) const {
+    return found->association.Associate(points, origins, T_begin, T_end, map, threads,
                                         &found->points);
   }
 };
@@ -79,7 +79,7 @@ TEST(SegmentAssociation, FindsTheWallsOfABox) {
   const Segment segment(1000, 2);
   ThreadPool threads(1);
   Found found;
-  EXPECT_EQ(segment.Associate(map, true, &threads, &found), 1000);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 1000);
   EXPECT_GT(found.points.size(), 970u);
   const SegmentMotion motion(segment.T_begin, segment.T_end);
   int inside = 0;
@@ -110,14 +110,14 @@ TEST(SegmentAssociation, LeavesOutPointsWithoutPlanes) {
   for (std::size_t i = 0; i < segment.points.size(); i += 2) segment.points[i].p_body_m *= 20.0F;
   ThreadPool threads(1);
   Found found;
-  EXPECT_EQ(segment.Associate(map, true, &threads, &found), 200);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 200);
   EXPECT_GT(found.points.size(), 90u);
   EXPECT_LE(found.points.size(), 100u);
   for (const RegistrationPoint& point : found.points) {
     EXPECT_LT(point.p_body_m.norm(), 20.0);
   }
   segment.points.clear();
-  EXPECT_EQ(segment.Associate(map, true, &threads, &found), 0);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
   EXPECT_TRUE(found.points.empty());
 }
 
@@ -130,12 +130,12 @@ TEST(SegmentAssociation, IsTheSameToTheByteForAnyNumberOfThreads) {
     MapPyramid map = BoxMap(20000, 1);
     ThreadPool threads(count);
     Found found;
-    first.Associate(map, true, &threads, &found);
+    first.Associate(map, &threads, &found);
     testing::Random random(6);
     std::vector<Eigen::Vector3d> more;
     for (int i = 0; i < 20000; ++i) more.push_back(OnWalls(&random));
     map.Insert(more);
-    second.Associate(map, true, &threads, &found);
+    second.Associate(map, &threads, &found);
     ASSERT_GT(found.points.size(), 1900u);
     if (expected.empty()) expected = found.points;
     ASSERT_EQ(found.points.size(), expected.size());
@@ -145,20 +145,19 @@ TEST(SegmentAssociation, IsTheSameToTheByteForAnyNumberOfThreads) {
   }
 }
 
-TEST(SegmentAssociation, LooksUpAgainOnlyWhereTheSegmentMovedOrIfAskedTo) {
+TEST(SegmentAssociation, LooksUpAgainOnlyWhereTheSegmentMoved) {
   const MapPyramid map = BoxMap(20000, 1);
   Segment segment(500, 7);
   ThreadPool threads(1);
   Found found;
-  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 500);
-  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 0);
-  EXPECT_EQ(segment.Associate(map, true, &threads, &found), 500);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 500);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
   segment.T_end.t.x() += 0.001;
-  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 0);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
   segment.T_end.t.x() += 0.003;
-  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 500);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 500);
   segment.T_begin.q = segment.T_begin.q * so3::Exp(Eigen::Vector3d(0, 0, 3e-4));
-  EXPECT_EQ(segment.Associate(map, false, &threads, &found), 500);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 500);
 }
 
 TEST(SegmentAssociation, JudgesGrazingByTheRayFromThePointsOwnLidar) {
@@ -190,7 +189,7 @@ TEST(SegmentAssociation, JudgesGrazingByTheRayFromThePointsOwnLidar) {
   const Eigen::Vector3d middle = hit + 0.15 / ray.x() * ray;
   const std::vector<SegmentPoint> points = {{middle.cast<float>(), 0.5F, 1}};
   const auto normal = [&](const Eigen::Vector3d& origin) {
-    found.association.Associate(points, {Eigen::Vector3d::Zero(), origin}, SE3(), SE3(), map, true,
+    found.association.Associate(points, {Eigen::Vector3d::Zero(), origin}, SE3(), SE3(), map,
                                 &threads, &found.points);
     return found.points.at(0).normal_world;
   };
