@@ -105,7 +105,8 @@ class View {
     const place = pose.at.toArray().map((value, k) => (value + this.page.origin[k]).toFixed(2));
     const values = this.path.quantities.map((item) => {
       const value = this.path.valueAt(item.key, pose.index);
-      return `${item.label} ${Number.isFinite(value) ? value.toFixed(item.digits) : '–'} ${item.unit}`;
+      const text = Number.isFinite(value) ? value.toFixed(item.digits) : '–';
+      return `${item.label} ${text} ${item.unit}`;
     });
     const flags = this.path.flagsAt(time);
     return [`${time.toFixed(2)} s of ${this.path.duration().toFixed(2)} s`,
