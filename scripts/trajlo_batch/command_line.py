@@ -3,6 +3,7 @@
 import argparse
 import os
 import pathlib
+import re
 import signal
 import sys
 
@@ -58,13 +59,22 @@ def places_of(arguments, name):
     return Places(arguments.build.resolve(), arguments.data.resolve(), output.resolve())
 
 
+def alike(missing):
+    """Sequences whose files differ by their names only, in one: {paths: names}."""
+    patterns = {}
+    for name, paths in missing.items():
+        word = re.compile(rf"(?<![A-Za-z0-9]){re.escape(name)}(?![A-Za-z0-9])")
+        patterns.setdefault(tuple(word.sub("NAME", path) for path in paths), []).append(name)
+    return {tuple(missing[names[0]]) if len(names) == 1 else pattern: names
+            for pattern, names in patterns.items()}
+
+
 def say_missing(suite, missing):
     """Which sequences have no data, what was looked for, and where the data can be had."""
     if not missing:
         return
-    name, paths = next(iter(missing.items()))
-    others = f"; the others alike: {', '.join(list(missing)[1:])}" if len(missing) > 1 else ""
-    print(f"{name}: no data; looked for {', '.join(paths)}{others}", file=sys.stderr)
+    for paths, names in alike(missing).items():
+        print(f"{', '.join(names)}: no data; looked for {', '.join(paths)}", file=sys.stderr)
     print(f"{len(missing)} of {len(suite.sequences)} sequences have no data. --data or "
           f"TRAJLO_DATASETS names the folder that they are below. {suite.needs}".rstrip(),
           file=sys.stderr)

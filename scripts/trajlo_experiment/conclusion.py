@@ -46,7 +46,8 @@ def about_best(findings, ranked):
     best = ranked[0]
     said = [f"The best of {len(ranked)} settings is {setting_text(findings, row_of[best.point])}."]
     if best.failed:
-        return [f"No setting ended well on all recordings. {said[0]} It failed {best.failed} times."]
+        return ["No setting ended well on all recordings.", *said,
+                f"It failed {best.failed} times."]
     marks = analysis.marks_of(row_of[best.point])
     reference = findings.study.reference
     if not findings.exact_reference:
@@ -120,6 +121,6 @@ def caution(findings):
     """What the seeds are worth."""
     seeds = analysis.fewest_seeds(analysis.recordings_of(findings.rows))
     if seeds < 2:
-        return ("Some scenarios have one seed only. Nothing tells how far results would scatter with "
-                "others, so no intervals are given, and small differences may be chance.")
+        return ("Some scenarios have one seed only. Nothing tells how far results would scatter "
+                "with others, so no intervals are given, and small differences may be chance.")
     return f"With {seeds} seeds a scenario the intervals are rough." if seeds < 5 else ""

@@ -30,8 +30,8 @@ def height_on_axis(findings, factor, level):
 
 
 def spread_ticks(ticks, least):
-    """Ticks (height, text) without those that are nearer than `least` to one that is kept; both
-    ends are."""
+    """Ticks (height, text, ...) without those nearer than `least` to one that is kept; both ends
+    are."""
     ticks = sorted(ticks)
     if len(ticks) < 3:
         return ticks
@@ -55,6 +55,41 @@ def wrapped(title, count):
     return textwrap.fill(title, letters, break_long_words=False)
 
 
+def draw_lines(axes, findings, factors, points, norm, bound):
+    """Each setting through its levels to its score; those up to `bound` stand out."""
+    colors = matplotlib.colormaps[theme.ERROR_MAP].reversed()
+    for name, row in sorted(points.items(), key=lambda item: -findings.scores[item[0]].score):
+        score = findings.scores[name].score
+        lost = not math.isfinite(score)
+        heights = [height_on_axis(findings, factor, row[factor.name]) for factor in factors]
+        heights.append(1.12 if lost else norm(min(score, norm.vmax)))
+        color = theme.END if lost else colors(0.85 * norm(min(score, norm.vmax)))
+        look = {"lw": 1.5, "alpha": 0.95, "zorder": 3} if score <= bound else {"lw": 0.5,
+                                                                             "alpha": 0.45}
+        axes.plot(range(len(heights)), heights, color=color, ls=":" if lost else "-", **look)
+    return colors(0.0)
+
+
+def draw_factor_axes(axes, findings, factors):
+    for place, factor in enumerate(factors):
+        axes.axvline(place, color=theme.TEXT, lw=0.7, zorder=4)
+        for height, text in axis_ticks(findings, factor):
+            axes.annotate(text, (place, height), textcoords="offset points", xytext=(-3, 0),
+                          ha="right", va="center", fontsize=6.5, zorder=5,
+                          bbox={"facecolor": theme.PANEL, "alpha": 0.85, "lw": 0, "pad": 0.6})
+
+
+def draw_score_axis(axes, place, low, high, norm, fails):
+    axes.axvline(place, color=theme.TEXT, lw=0.7)
+    ticks = [low, *(value for value in (0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50)
+                    if 1.12 * low < value < 0.9 * high), high]
+    ticks = [(float(norm(value)), f"{value:.2g}", theme.TEXT) for value in ticks]
+    ticks = spread_ticks(ticks, LEAST_APART) + ([(1.12, "fails", theme.END)] if fails else [])
+    for height, text, color in ticks:
+        axes.annotate(text, (place, height), textcoords="offset points", xytext=(4, 0),
+                      va="center", fontsize=6.5, color=color)
+
+
 def draw_parallel(findings):
     """Each setting is a line through its levels to its error; the best stand out."""
     factors = [factor for factor in findings.study.factors if len(findings.bins(factor)) > 1]
@@ -71,42 +106,19 @@ def draw_parallel(findings):
                 default=0)
     figure, axes = plt.subplots(figsize=(theme.PAGE_IN, max(2.5, 0.8 + 0.13 * names)),
                                 constrained_layout=True)
-    colors = matplotlib.colormaps[theme.ERROR_MAP].reversed()
-    for name, row in sorted(points.items(), key=lambda item: -findings.scores[item[0]].score):
-        score = findings.scores[name].score
-        heights = [height_on_axis(findings, factor, row[factor.name]) for factor in factors]
-        heights.append(norm(min(score, high)) if math.isfinite(score) else 1.12)
-        lost = not math.isfinite(score)
-        color = theme.END if lost else colors(0.85 * norm(min(score, high)))
-        look = {"lw": 1.5, "alpha": 0.95, "zorder": 3} if score <= bound else {"lw": 0.5,
-                                                                             "alpha": 0.45}
-        axes.plot(range(len(heights)), heights, color=color, ls=":" if lost else "-", **look)
-    titles = [factor.label for factor in factors]
-    for place, factor in enumerate(factors):
-        axes.axvline(place, color=theme.TEXT, lw=0.7, zorder=4)
-        for height, text in axis_ticks(findings, factor):
-            axes.annotate(text, (place, height), textcoords="offset points", xytext=(-3, 0),
-                          ha="right", va="center", fontsize=6.5, zorder=5,
-                          bbox={"facecolor": theme.PANEL, "alpha": 0.85, "lw": 0, "pad": 0.6})
-    last = len(factors)
-    axes.axvline(last, color=theme.TEXT, lw=0.7)
-    ticks = [low, *(value for value in (0.5, 0.7, 1, 1.5, 2, 3, 5, 10, 20, 50)
-                    if 1.12 * low < value < 0.9 * high), high]
-    for height, text in spread_ticks([(float(norm(value)), f"{value:.2g}") for value in ticks],
-                                     LEAST_APART):
-        axes.annotate(text, (last, height), textcoords="offset points",
-                      xytext=(4, 0), va="center", fontsize=6.5)
-    if len(finite) < len(points):
-        axes.annotate("fails", (last, 1.12), textcoords="offset points", xytext=(4, 0),
-                      va="center", fontsize=6.5, color=theme.END)
-    axes.set_xticks(range(last + 1), [wrapped(title, last + 1)
-                                      for title in [*titles, findings.ratio_label]])
+    best_color = draw_lines(axes, findings, factors, points, norm, bound)
+    draw_factor_axes(axes, findings, factors)
+    last, fails = len(factors), len(finite) < len(points)
+    draw_score_axis(axes, last, low, high, norm, fails)
+    titles = [*(factor.label for factor in factors), findings.ratio_label]
+    axes.set_xticks(range(last + 1), [wrapped(title, last + 1) for title in titles])
     axes.set(xlim=(-0.35, last + 0.35), ylim=(-0.06, 1.2), yticks=[])
     axes.tick_params(length=0)
     axes.grid(False)
     axes.spines[:].set_visible(False)
-    below(figure, [Line2D([], [], color=colors(0.0), lw=1.5,
-                          label=f"the best {100 * HIGHLIGHTED:.0f} % of the settings"),
-                   *([Line2D([], [], color=theme.END, ls=":", lw=1, label="fails on a recording")]
-                     if len(finite) < len(points) else [])])
+    handles = [Line2D([], [], color=best_color, lw=1.5,
+                      label=f"the best {100 * HIGHLIGHTED:.0f} % of the settings")]
+    if fails:
+        handles.append(Line2D([], [], color=theme.END, ls=":", lw=1, label="fails on a recording"))
+    below(figure, handles)
     return figure

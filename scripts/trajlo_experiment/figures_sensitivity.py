@@ -108,7 +108,8 @@ def draw_sensitivity(findings):
 
 
 def scenario_handles(findings):
-    handles = [Line2D([], [], marker="o", ms=3, label=names.title(group), **theme.method_style(index))
+    handles = [Line2D([], [], marker="o", ms=3, label=names.title(group),
+                      **theme.method_style(index))
                for index, group in enumerate(findings.groups)]
     if findings.failures:
         handles.append(Line2D([], [], ls="", marker="x", ms=4, mew=1.0, color=theme.TEXT,

@@ -24,7 +24,7 @@ def tradeoff(findings, group):
     costs = [analysis.median([row[COST] for row in points[name] if row[COST]])
              for name in settings]
     errors = [analysis.median(findings.errors(points[name])) for name in settings]
-    usable = [i for i in range(len(settings)) if math.isfinite(costs[i]) and math.isfinite(errors[i])]
+    usable = [i for i, pair in enumerate(zip(costs, errors)) if all(map(math.isfinite, pair))]
     front = analysis.pareto([costs[i] for i in usable], [errors[i] for i in usable])
     return settings, costs, errors, [usable[i] for i in front]
 

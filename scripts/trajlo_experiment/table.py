@@ -11,8 +11,8 @@ from trajlo_batch.places import read_json_if
 FLAGS = ("no_points", "gap", "reverted", "not_converged", "degenerate", "lost")
 COLUMNS = {"points": "points_per_window", "rounds": "rounds_per_window",
            "iterations": "iterations_per_window"}
-LEFT_OUT = ("cpu_s_per_data_second", "data_s", "suite", "configuration", "degenerate", "sequence", "group", "seed", "inlier_share",
-            "version", "folder", "command")
+LEFT_OUT = ("suite", "configuration", "degenerate", "sequence", "group", "seed", "inlier_share",
+            "cpu_s_per_data_second", "data_s", "version", "folder", "command")
 
 
 def window_columns(path, names):

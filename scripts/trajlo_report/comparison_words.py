@@ -61,7 +61,8 @@ def of_windows(lockstep):
     least, most = fastest["lockstep"]["total_ms"], slowest["lockstep"]["total_ms"]
     text = f"{fastest['name']} solves a window fastest, in {significant(least)} ms"
     if fastest is not first:
-        text += f" ({first['name']} takes {factor(first['lockstep']['total_ms'] / least)} × as long)"
+        times = factor(first["lockstep"]["total_ms"] / least)
+        text += f" ({first['name']} takes {times} × as long)"
     said = [f"{text}; {slowest['name']} is slowest, {factor(most / least)} × as long.",
             *agreement(alike, lambda item: item["lockstep"]["max_from_first_m"],
                        "find a solution that equals")]

@@ -34,7 +34,7 @@ def legend_below(axes):
 
 
 def cost_curves(iterations, variants, steps=12):
-    """(index, variant, curve) of those that can be drawn: the same energy, and something to lose."""
+    """(index, variant, curve) of those with the same energy, and something to lose."""
     curves = []
     for index, item in enumerate(variants):
         curve = excess_costs(iterations, item["name"], steps)
@@ -134,7 +134,7 @@ def draw_points(lockstep, variants, width_in):
 
 
 def draw_free(variants, width_in):
-    """Whole runs: processor time, and how far the trajectories part; errors where truth is known."""
+    """Whole runs: processor time, how far trajectories part, and errors where there is truth."""
     names = [item["name"] for item in variants]
     place = np.arange(len(names))
     errors = [item["free"]["ate_rmse_m"] for item in variants]

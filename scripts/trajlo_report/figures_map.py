@@ -11,9 +11,11 @@ from trajlo_report.figures_path import ticks
 OUTLINE = [matplotlib.patheffects.withStroke(linewidth=3.2, foreground="white")]
 
 
-def map_bounds(points, positions):
+def map_bounds(points, run):
     """Low and high corner: a few far points must not make everything else small."""
-    low, high = positions.min(axis=0), positions.max(axis=0)
+    ways = np.concatenate([run.positions, run.estimate.truth]) if run.is_evaluated \
+        else run.positions
+    low, high = ways.min(axis=0), ways.max(axis=0)
     if len(points):
         near = np.percentile(points, [0.5, 99.5], axis=0)
         low, high = np.minimum(low, near[0]), np.maximum(high, near[1])
@@ -82,7 +84,7 @@ def draw_views(run, ceiling_m=None, width_in=7.6):
     """From above (without what is above the ceiling's height), from the front and from the side."""
     points = run.cloud.points if run.cloud else np.zeros((0, 3))
     below = points[points[:, 2] < ceiling_m] if ceiling_m is not None else points
-    low, high = bounds = map_bounds(points, run.positions)
+    low, high = bounds = map_bounds(points, run)
     heights = height_range(below)
     places, size, scale = layout(low, high, width_in)
     figure = theme.plt.figure(figsize=size)
@@ -122,7 +124,7 @@ def draw_thumbnail(run, ceiling_m=None):
     points = run.cloud.points if run.cloud else np.zeros((0, 3))
     if ceiling_m is not None:
         points = points[points[:, 2] < ceiling_m]
-    bounds = map_bounds(points, run.positions)
+    bounds = map_bounds(points, run)
     figure, axes = theme.plt.subplots(figsize=(2.4, 1.9), constrained_layout=True)
     draw_plane(axes, run, bounds, height_range(points), 0, 1, points, pixels=300)
     axes.set_aspect("equal", adjustable="datalim")

@@ -6,10 +6,8 @@ import re
 SENSORS = (
     (r"os(\d) (\d+)x(\d)", r"\3 × OS\1-\2"), (r"os(\d) (\d+)", r"OS\1-\2"),
     (r"vlp(\d+)", r"VLP-\1"), (r"hdl(\d+)", r"HDL-\1"), (r"xt(\d+)", r"PandarXT-\1"),
-    (r"mid(\d+)", r"MID-\1"), (r"avia", "Avia"), (r"hilti", "OS0-64 and MID-70"),
+    (r"mid(\d+)", r"Livox MID-\1"), (r"avia", "Livox Avia"), (r"hilti", "OS0-64 and Livox MID-70"),
     (r"kitti", "KITTI's format"))
-
-
 MARK = " †"  # of a scenario that is degenerate by construction
 
 

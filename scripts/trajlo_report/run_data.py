@@ -49,8 +49,9 @@ def drawable(times, positions, quaternions, missing):
     if not near.any():
         raise files.ReportError("The trajectory has no pose that can be drawn")
     if not near.all():
-        missing.append(f"{np.count_nonzero(~near)} poses lie more than {view_cloud.FARTHEST_M / 1000:.0f} km "
-                       "from the start or nowhere, and are not drawn.")
+        far_km = view_cloud.FARTHEST_M / 1000
+        missing.append(f"{np.count_nonzero(~near)} poses lie more than {far_km:.0f} km from the "
+                       "start or nowhere, and are not drawn.")
     return times[near], positions[near], quaternions[near]
 
 

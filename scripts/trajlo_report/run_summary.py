@@ -83,7 +83,8 @@ def of_windows(run_json):
     windows = run_json.get("windows", {})
     if not windows.get("count"):
         return []
-    facts = [Fact(f"{100 * windows['inlier_share']:.0f} %", "of the points found a plane in the map")]
+    facts = [Fact(f"{100 * windows['inlier_share']:.0f} %",
+                  "of the points found a plane in the map")]
     flags = {name.replace("_", " "): count for name, count in windows.get("flagged", {}).items()
              if count}
     if flags:

@@ -38,8 +38,8 @@ class ComparisonPageTest(FolderTest):
         super().setUp()
         self.document = {"input": ["a.bag"], "truth": "truth.tum", "versions": {"trajlo": "0.1.0"},
                          "variants": [variant(*item) for item in VARIANTS]}
-        lockstep, iterations = ["variant,window,points,steps,rejected_steps,total_ms,from_first_m"], [
-            "variant,window,iteration,cost"]
+        lockstep = ["variant,window,points,steps,rejected_steps,total_ms,from_first_m"]
+        iterations = ["variant,window,iteration,cost"]
         for name, _, total_ms, apart_m, *_ in VARIANTS:
             for window in range(6):
                 lockstep.append(f"{name},{window},{1000 + window},3,0,{total_ms},{apart_m / 2}")

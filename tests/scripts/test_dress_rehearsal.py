@@ -60,7 +60,7 @@ class DressRehearsal(FolderTest):
         lookalikes.make_kitti(self.simulator, self.folder, self.downloads, lidar0__columns=512)
         self.assertIn("MISSING kitti/poses/00.txt", self.lay_out("kitti"))
         text = self.batch("kitti")
-        self.assertIn(f"00: no data; looked for {self.data}/kitti/sequences/00", text)
+        self.assertIn(f", 10: no data; looked for {self.data}/kitti/sequences/NAME", text)
         self.assertIn("10 of 11 sequences have no data", text)
         self.assertIn(f"{self.data}/kitti/poses/00.txt", self.page)
 
@@ -135,11 +135,14 @@ class DressRehearsal(FolderTest):
             # Below the little picture, and in the table; not the page of it all in the message.
             self.assertTrue(re.search(rf"trajlo:\s+{re.escape(value)}", self.page), value)
 
-    def test_without_data_a_suite_says_what_it_looked_for(self):
-        for name, file in (("kitti", "kitti/poses/10.txt"), ("hilti2021", "hilti2021/rig.yaml"),
-                           ("ntu_viral", "ntu_viral/spms_03/spms_03.bag"),
-                           ("pointlio", "pointlio/indoor_swing.bag")):
-            self.assertIn(str(self.data / file), self.batch(name, code=2))
+    def test_without_data_a_suite_says_what_it_looked_for_and_where_to_get_it(self):
+        for name, file in (("kitti", "kitti/poses/NAME.txt"), ("hilti2021", "hilti2021/rig.yaml"),
+                           ("ntu_viral", "ntu_viral/NAME/NAME.bag"),
+                           ("pointlio", "pointlio/NAME.bag")):
+            text = self.batch(name, code=2)
+            self.assertIn(str(self.data / file), text)
+            self.assertIn(f"scripts/datasets/{name} --help", text)
+            self.assertLess(len(text.splitlines()), 9)
 
 
 if __name__ == "__main__":

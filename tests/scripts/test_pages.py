@@ -168,7 +168,8 @@ class PageTest(unittest.TestCase):
     def test_scenarios_have_titles_and_the_names_of_datasets_stay(self):
         for name, title in (("hall_os1_16x2-seed3", "Hall, 2 × OS1-16, seed 3"),
                             ("car_park_os1_128", "Car park, OS1-128"), ("eee_01", "eee_01"),
-                            ("spin_avia", "Spin, Avia"), ("00", "00"), ("a_b-seed2", "a_b-seed2")):
+                            ("spin_avia", "Spin, Livox Avia"), ("00", "00"),
+                            ("a_b-seed2", "a_b-seed2")):
             self.assertEqual(names.title(name), title)
 
     def test_no_line_is_drawn_over_a_gap(self):

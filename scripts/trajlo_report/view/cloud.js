@@ -103,7 +103,8 @@ class Cloud {
         mode: { value: mode }, heights: { value: new THREE.Vector2(0, 1) },
         cut: { value: 1e9 }, lastMoment: { value: Math.max(this.entry.moments_s.length - 1, 1) },
         untilMoment: { value: 1e9 }, size: { value: 0.05 }, pixelsPerUnit: { value: 1 },
-        leastPixels: { value: leastPixels }, lift: { value: lift }, colors: { value: null }, fade: { value: 0 },
+        leastPixels: { value: leastPixels }, lift: { value: lift },
+        colors: { value: null }, fade: { value: 0 },
         color: { value: new THREE.Color(PLAIN.scan) },
       },
     });

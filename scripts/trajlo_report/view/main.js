@@ -42,12 +42,14 @@ class View {
     return renderer;
   }
 
-  // The path, and most of the points: single far ones must not make the rest small.
+  // Path and truth, and most of the points: single far ones must not make the rest small.
   boxOfInterest(arrays) {
     const box = new THREE.Box3();
     const at = new THREE.Vector3();
-    for (let i = 0; i < this.path.times.length; ++i) {
-      box.expandByPoint(at.fromArray(this.path.places, 3 * i));
+    for (const places of [this.path.places, arrays.truth_xyz || []]) {
+      for (let i = 0; i < places.length; i += 3) {
+        if (Number.isFinite(places[i])) box.expandByPoint(at.fromArray(places, i));
+      }
     }
     return this.cloud ? box.union(this.cloud.mostOf(arrays)) : box.expandByScalar(1);
   }
@@ -103,7 +105,8 @@ class View {
     const place = pose.at.toArray().map((value, k) => (value + this.page.origin[k]).toFixed(2));
     const values = this.path.quantities.map((item) => {
       const value = this.path.valueAt(item.key, pose.index);
-      return `${item.label} ${Number.isFinite(value) ? value.toFixed(item.digits) : '–'} ${item.unit}`;
+      const text = Number.isFinite(value) ? value.toFixed(item.digits) : '–';
+      return `${item.label} ${text} ${item.unit}`;
     });
     const flags = this.path.flagsAt(time);
     return [`${time.toFixed(2)} s of ${this.path.duration().toFixed(2)} s`,

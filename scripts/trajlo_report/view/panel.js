@@ -12,24 +12,32 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+function row(kind, label, ...parts) {
+  return element('label', { className: `row ${kind}` }, element('span', {}, label), ...parts);
+}
+
 function choice(label, names, onChange, texts = names) {
   const select = element('select', { onchange: () => onChange(select.value) },
     ...names.map((name, i) => element('option', { value: name, textContent: texts[i] })));
-  return { row: element('label', { className: 'row' }, element('span', {}, label), select), select };
+  return { row: row('', label, select), select };
 }
 
 function check(label, checked, onChange) {
-  const box = element('input', { type: 'checkbox', checked, onchange: () => onChange(box.checked) });
-  return { row: element('label', { className: 'row check' }, box, element('span', {}, label)), box };
+  const onchange = () => onChange(box.checked);
+  const box = element('input', { type: 'checkbox', checked, onchange });
+  return { row: row('check', label, box), box };
 }
 
 function slide(label, low, high, value, textOf, onChange) {
   const text = element('output', {}, textOf(value));
-  const input = element('input', { type: 'range', min: low, max: high, step: (high - low) / 500,
-    oninput: () => { text.textContent = textOf(Number(input.value)); onChange(Number(input.value)); } });
+  const oninput = () => {
+    text.textContent = textOf(Number(input.value));
+    onChange(Number(input.value));
+  };
+  const input = element('input', {
+    type: 'range', min: low, max: high, step: (high - low) / 500, oninput });
   input.value = value;
-  return { row: element('label', { className: 'row slide' }, element('span', {}, label), text, input),
-           input };
+  return { row: row('slide', label, text, input), input };
 }
 
 function heading(text) { return element('h4', {}, text); }

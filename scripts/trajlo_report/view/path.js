@@ -99,7 +99,8 @@ class Path {
     const at = new THREE.Vector3().fromArray(this.places, 3 * i)
       .lerp(new THREE.Vector3().fromArray(this.places, 3 * next), share);
     const r = this.rotations.subarray(9 * i, 9 * i + 9);
-    return { at, index: i, axes: [0, 1, 2].map((k) => new THREE.Vector3(r[k], r[3 + k], r[6 + k])) };
+    const axes = [0, 1, 2].map((k) => new THREE.Vector3(r[k], r[3 + k], r[6 + k]));
+    return { at, index: i, axes };
   }
 
   valueAt(key, index) { return this.arrays[`path_${key}`][index]; }
