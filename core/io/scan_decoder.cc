@@ -195,10 +195,4 @@ std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& tabl
   return 0;
 }
 
-void ShiftTimes(std::int64_t offset_ns, LidarScan* scan) {
-  if (offset_ns == 0) return;
-  scan->stamp_ns += offset_ns;
-  for (LidarPoint& point : scan->points) point.t_ns += offset_ns;
-}
-
 }  // namespace trajlo

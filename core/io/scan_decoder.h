@@ -31,7 +31,4 @@ std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& tabl
                        const TimeConvention& convention, std::optional<std::int64_t> stamp_ns,
                        LidarScan* scan);
 
-/// Adds `offset_ns` to the stamp and to the times of all points.
-void ShiftTimes(std::int64_t offset_ns, LidarScan* scan);
-
 }  // namespace trajlo

@@ -10,6 +10,7 @@
 #include "core/io/point_file.h"
 #include "core/io/scan_decoder.h"
 #include "core/io/stamp_text.h"
+#include "core/odometry/sensing/scan_times.h"
 
 namespace trajlo {
 namespace {
@@ -141,6 +142,8 @@ ScanFolder::Outcome ScanFolder::Decode(std::size_t index, LidarScan reused) cons
     outcome.points_without_time = DecodeScan(file, table, convention_, stamp_ns, &outcome.scan);
     ShiftTimes(options_.clock_offset_ns, &outcome.scan);
     outcome.scan.lidar_id = options_.lidar_id;
+    outcome.scan.recorded_ns = std::nullopt;
+    if (!recorded_ns_.empty()) outcome.scan.recorded_ns = recorded_ns_[index];
     outcome.readable = true;
   } catch (const std::exception& error) {
     outcome.damage = error.what();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/odometry/sensing/scan_sequencer.h"
 #include "core/odometry/stopwatch.h"
 #include "core/odometry/window/initial_motion.h"
 #include "core/odometry/window/sliding_window.h"
@@ -21,6 +22,7 @@ class Odometry::Impl {
   Impl(const OdometryOptions& options, const WindowSolverFactory& make_solver)
       : options_(options),
         threads_(options.threads),
+        sequencer_(options.segmenter.max_lag_s, [this](const LidarScan& scan) { Segment(scan); }),
         segmenter_(options.segmenter,
                    options.adaptive_interval.enabled ? options.adaptive_interval.divisions : 1),
         interval_(options.adaptive_interval, options.segmenter.interval_s),
@@ -28,14 +30,10 @@ class Odometry::Impl {
         loss_watch_(options.lost, options.threshold.max_m),
         window_(options, &map_, &threads_, make_solver) {}
 
-  void AddScan(const LidarScan& scan) {
-    Stopwatch watch;
-    segmenter_.AddScan(scan);
-    milliseconds_segment_ += watch.Milliseconds();
-    ProcessSegments();
-  }
+  void AddScan(const LidarScan& scan) { sequencer_.Add(scan); }
 
   void Finish() {
+    sequencer_.Finish();
     segmenter_.Finish();
     ProcessSegments();
     if (!started_) return;
@@ -45,17 +43,28 @@ class Odometry::Impl {
 
   OdometryOptions options_;
   ThreadPool threads_;
+  ScanSequencer sequencer_;
   Segmenter segmenter_;
   SegmentInterval interval_;
   MapPyramid map_;
   LossWatch loss_watch_;
   SlidingWindow window_;
   Trajectory trajectory_;
+  std::function<void(const LidarScan&)> on_scan_;
   std::function<void(const WindowStatistics&)> callback_;
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;
 
  private:
+  /// A scan whose times go on from those before.
+  void Segment(const LidarScan& scan) {
+    if (on_scan_) on_scan_(scan);
+    Stopwatch watch;
+    segmenter_.AddScan(scan);
+    milliseconds_segment_ += watch.Milliseconds();
+    ProcessSegments();
+  }
+
   void ProcessSegments() {
     while (auto cloud = NextSegment()) {
       if (!started_) {
@@ -186,6 +195,9 @@ Odometry::~Odometry() = default;
 
 void Odometry::AddScan(const LidarScan& scan) { impl_->AddScan(scan); }
 void Odometry::Finish() { impl_->Finish(); }
+void Odometry::OnScan(std::function<void(const LidarScan&)> callback) {
+  impl_->on_scan_ = std::move(callback);
+}
 void Odometry::OnWindow(std::function<void(const WindowStatistics&)> callback) {
   impl_->callback_ = std::move(callback);
 }
@@ -194,7 +206,13 @@ void Odometry::OnPose(std::function<void(const ControlPose&, const Matrix6d&)> c
 }
 const Trajectory& Odometry::trajectory() const { return impl_->trajectory_; }
 const MapPyramid& Odometry::map() const { return impl_->map_; }
-const PointCounts& Odometry::point_counts() const { return impl_->segmenter_.counts(); }
+PointCounts Odometry::point_counts() const {
+  PointCounts counts = impl_->segmenter_.counts();
+  counts.wrong_time = impl_->sequencer_.report().points;
+  counts.received += counts.wrong_time;
+  return counts;
+}
+const TimeReport& Odometry::time_report() const { return impl_->sequencer_.report(); }
 std::optional<std::int64_t> Odometry::lost_at_ns() const { return impl_->lost_at_ns_; }
 
 }  // namespace trajlo

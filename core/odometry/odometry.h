@@ -6,6 +6,7 @@
 
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/sensing/time_report.h"
 #include "core/odometry/solvers/solver_options.h"
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/trajectory/trajectory.h"
@@ -74,10 +75,14 @@ class Odometry {
                     const WindowSolverFactory& make_solver = MakeWindowSolver);
   ~Odometry();
 
-  /// Processes every window that this scan completes.
+  /// Takes a scan as it was recorded, whatever its stamp (see ScanSequencer), and processes every
+  /// window that it completes.
   void AddScan(const LidarScan& scan);
   /// Processes what is left and settles all control poses.
   void Finish();
+
+  /// Called with every scan that is used, in order, its times as they are understood.
+  void OnScan(std::function<void(const LidarScan&)> callback);
 
   /// Called after every window.
   void OnWindow(std::function<void(const WindowStatistics&)> callback);
@@ -90,7 +95,9 @@ class Odometry {
   /// The control poses that have left the window (all of them after Finish).
   const Trajectory& trajectory() const;
   const MapPyramid& map() const;
-  const PointCounts& point_counts() const;
+  PointCounts point_counts() const;
+  /// What became of scans with odd stamps.
+  const TimeReport& time_report() const;
   /// When the estimator got lost, if it did (sticky).
   std::optional<std::int64_t> lost_at_ns() const;
 

@@ -9,6 +9,7 @@
 #include "core/io/errors.h"
 #include "core/io/recording/time_probe.h"
 #include "core/io/scan_decoder.h"
+#include "core/odometry/sensing/scan_times.h"
 
 namespace trajlo {
 namespace {
@@ -132,6 +133,7 @@ CloudRecording::Outcome CloudRecording::Decode(LidarScan reused) {
         DecodeScan(path_, message_.table, convention, stamp_ns, &outcome.scan);
     ShiftTimes(stream->clock_offset_ns, &outcome.scan);
     outcome.scan.lidar_id = stream->lidar_id;
+    outcome.scan.recorded_ns = message_.recorded_ns;
     outcome.readable = true;
   } catch (const std::exception& error) {
     outcome.damage = error.what();

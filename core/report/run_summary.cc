@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "core/report/run_summary.h"
+
+namespace trajlo {
+
+double RunSummary::ShareWithWrongTimes() const {
+  if (points.received == 0) return 0.0;
+  const auto dropped =
+      points.too_late + points.wrong_time + static_cast<std::int64_t>(read.points_without_time);
+  return static_cast<double>(dropped) / static_cast<double>(points.received);
+}
+
+std::string RunSummary::OddStamps() const {
+  std::string text;
+  const auto add = [&](std::int64_t count, const char* what) {
+    if (count == 0) return;
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(times.reordered, "put in order");
+  add(times.retimed, "timed by their neighbours because their stamps are wrong");
+  add(times.misfits, "dropped because their stamps fit nowhere");
+  add(times.repeated, "dropped because their stamps are taken");
+  add(times.apart, "dropped because their LiDAR's clock does not meet that of the first");
+  return text;
+}
+
+}  // namespace trajlo
