@@ -40,6 +40,12 @@ std::vector<std::string> Lines(const std::string& text) {
   return lines;
 }
 
+SamplingOptions WithGaps(const RunRequest& request) {
+  SamplingOptions sampling = request.sampling;
+  sampling.max_gap_s = request.config.odometry.segmenter.max_gap_s;
+  return sampling;
+}
+
 /// One run from the first scan to the last file. The summary belongs to the caller, who needs it
 /// when a member throws.
 class Run {
@@ -50,7 +56,7 @@ class Run {
         folder_(folder),
         recording_(recording),
         summary_(summary),
-        sampler_(request.sampling),
+        sampler_(WithGaps(request)),
         trajectory_(folder.trajectory(), IfExists::kReplace),
         windows_(folder.windows(), IfExists::kReplace),
         odometry_(request.config.odometry) {
@@ -78,7 +84,10 @@ class Run {
     LidarScan scan;
     for (std::size_t count = 0; !stop && recording_->Next(&scan); ++count) {
       Timed([&] { odometry_.AddScan(scan); });
-      sampler_.Advance(odometry_.trajectory(), Append());
+      sampler_.Advance(odometry_.trajectory(), [&](std::int64_t t_ns, const SE3& T) {
+        trajectory_.Append(t_ns, T);
+        return !stop;
+      });
       const std::int64_t data_ns = newest_ns_ - first_ns_.value_or(newest_ns_);
       bar.Update({count + 1, recording_->size(), 1e-9 * static_cast<double>(data_ns),
                   SecondsSince(begin), inlier_share_});
@@ -109,12 +118,12 @@ class Run {
     s.times = odometry_.time_report();
     s.lost_at_ns = odometry_.lost_at_ns();
     s.poses_written = sampler_.written();
-    s.warnings = s.read.warnings;
-    s.warnings.insert(s.warnings.end(), s.times.remarks.begin(), s.times.remarks.end());
+    s.warnings = s.times.remarks;
     const std::string odd_stamps = s.OddStamps();
     if (!odd_stamps.empty()) {
       s.warnings.push_back("of " + std::to_string(s.times.scans) + " scans " + odd_stamps);
     }
+    s.warnings.insert(s.warnings.end(), s.read.warnings.begin(), s.read.warnings.end());
     if (sampler_.scans_without_pose() > 0) {
       s.warnings.push_back(std::to_string(sampler_.scans_without_pose()) +
                            " scans have no pose: repeated, out of order, or without points");
@@ -148,7 +157,10 @@ class Run {
   }
 
   TrajectorySampler::Visit Append() {
-    return [this](std::int64_t t_ns, const SE3& T) { trajectory_.Append(t_ns, T); };
+    return [this](std::int64_t t_ns, const SE3& T) {
+      trajectory_.Append(t_ns, T);
+      return true;
+    };
   }
 
   const RunRequest& request_;
@@ -192,6 +204,7 @@ std::string MissingInput(const RunSummary& s) {
     parts.push_back("the times of " + std::to_string(s.times.retimed) + " of " +
                     std::to_string(s.times.scans) + " scans are assumed");
   }
+  if (s.times.clocks_may_differ) parts.push_back("the clocks of the LiDARs may differ");
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", and ") + part;
   return text;

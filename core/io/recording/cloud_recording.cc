@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/io/errors.h"
-#include "core/io/recording/time_probe.h"
+#include "core/io/recording/probe_times.h"
 #include "core/io/scan_decoder.h"
 #include "core/odometry/sensing/scan_times.h"
 
@@ -99,6 +99,10 @@ void CloudRecording::Probe(CloudMessageReader* reader, const RecordingOptions& o
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     streams_[i].stamp_is_recorded = !probes[i].HasStamps();
     streams_[i].convention = probes[i].Decide();
+    const std::string& doubt = streams_[i].convention.doubt;
+    if (doubt.empty()) continue;
+    const Topic& topic = reader_->topics()[streams_[i].topic];
+    report_.warnings.push_back(path_.string() + ": " + topic.name + ": " + doubt);
   }
 }
 

@@ -38,6 +38,7 @@ bool LidarTrack::GoesOn(const LidarScan& scan, const ScanTimes& times) const {
 }
 
 void LidarTrack::NoteAt(const ScanPlace& place, const LidarScan& scan, const ScanTimes& times) {
+  if (!clock_.has_started()) first_ns_ = place.begin_ns;
   clock_.Note(scan, place);
   last_recorded_begin_ns_ = times.begin_ns;
   stands_still_ = false;
@@ -140,7 +141,7 @@ bool LidarTrack::FindOffset(const Others& others) {
   // If the times as they were recorded meet, they are of one clock.
   const bool is_same_clock = Distance(median_ns, 0) <= bound_ns;
   if (!is_same_clock && Distance(median_ns, reference.offset_ns()) > bound_ns) {
-    ahead_ns_ = median_ns;
+    apart_ = Apart{median_ns, held_.front()->reference_ns == held_.back()->reference_ns};
     return false;
   }
   clock_.set_offset_ns(is_same_clock ? reference.offset_ns() : 0);

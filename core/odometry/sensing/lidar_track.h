@@ -85,8 +85,15 @@ class LidarTrack {
   /// What was found since it was taken last.
   std::vector<Judgement> TakeJudgements() { return std::exchange(judgements_, {}); }
   std::optional<Step> TakeStep() { return std::exchange(step_, std::nullopt); }
-  /// How far the times are ahead of those of the first LiDAR, if they do not meet.
-  std::optional<std::int64_t> TakeAhead() { return std::exchange(ahead_ns_, std::nullopt); }
+  /// Times that do not meet those of the first LiDAR.
+  struct Apart {
+    std::int64_t ahead_ns;
+    /// The first LiDAR had fallen silent before this one spoke.
+    bool never_together;
+  };
+  std::optional<Apart> TakeApart() { return std::exchange(apart_, std::nullopt); }
+  /// Where the first scan that was handed on lies.
+  std::int64_t first_ns() const { return first_ns_; }
 
  private:
   void NoteAt(const ScanPlace& place, const LidarScan& scan, const ScanTimes& times);
@@ -123,6 +130,7 @@ class LidarTrack {
   std::vector<HeldScan*> held_;  ///< In the order in which they came.
   std::int64_t newest_ns_ = 0;
   std::int64_t newest_arrival_ = -1;
+  std::int64_t first_ns_ = 0;
   std::int64_t last_recorded_begin_ns_ = 0;  ///< Of the last scan that was handed on.
   bool stands_still_ = false;                ///< The last scan got its time because stamps do.
   struct Handed {
@@ -132,7 +140,7 @@ class LidarTrack {
   std::deque<Handed> handed_;  ///< The scans that were handed on lately.
   std::vector<Judgement> judgements_;
   std::optional<Step> step_;
-  std::optional<std::int64_t> ahead_ns_;
+  std::optional<Apart> apart_;
 };
 
 }  // namespace trajlo

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,8 @@ namespace {
 /// For each LiDAR, so many scans wait at most.
 constexpr std::size_t kMostQueued = 16;
 constexpr std::size_t kMostRemarks = 20;
+/// LiDARs of one recording begin and end within so much, or not at the same distance.
+constexpr std::int64_t kSmallShift_ns = 1'000'000'000;
 
 std::string Seconds(std::int64_t ns) {
   char text[40];
@@ -67,6 +70,7 @@ void ScanSequencer::Finish() {
   while (!queue_.empty()) {
     Judge(static_cast<std::size_t>(queue_.front()->held.scan.lidar_id), true);
   }
+  CompareSpans();
 }
 
 void ScanSequencer::Judge(std::size_t lidar, bool is_final) {
@@ -143,16 +147,41 @@ void ScanSequencer::Describe(std::size_t lidar) {
            Seconds(is_ahead ? step->length_ns : -step->length_ns) + ", to " + Seconds(step->at_ns) +
            "; the times from there on are moved so that they go on from those before");
   }
-  const auto ahead_ns = tracks_[lidar].TakeAhead();
-  if (!ahead_ns || is_apart_[lidar]) return;
+  const auto apart = tracks_[lidar].TakeApart();
+  if (!apart || is_apart_[lidar]) return;
   is_apart_[lidar] = true;
-  const bool is_ahead = *ahead_ns > 0;
-  const std::string distance = Seconds(is_ahead ? *ahead_ns : -*ahead_ns);
-  Remark(LidarName(lidar) + ": its times are " + distance + (is_ahead ? " ahead of" : " behind") +
-         " those of " + LidarName(first_lidar_) +
-         ", so its scans are left out. If the clocks differ, set input.clock_offset_s, of " +
-         LidarName(lidar) + " to about " + Seconds(-*ahead_ns) +
-         "; if its messages only come late, raise segmenter.max_lag_s");
+  const std::string how_far =
+      Seconds(std::abs(apart->ahead_ns)) + (apart->ahead_ns > 0 ? " ahead of" : " behind");
+  const std::string first = LidarName(first_lidar_);
+  std::string sentence = LidarName(lidar) + ": its times are " + how_far + " those of " + first;
+  if (apart->never_together) sentence += ", which was silent by then";
+  sentence += "; its scans are left out. If the clocks differ, set input.clock_offset_s";
+  if (!apart->never_together) {
+    sentence += ", of this LiDAR to about " + Seconds(-apart->ahead_ns) +
+                "; if its messages only come late, raise segmenter.max_lag_s";
+  }
+  Remark(sentence);
+}
+
+/// LiDARs of folders are merged by their stamps, so that a wrong clock only shows at the ends: one
+/// that begins later than the other and ends as much later.
+void ScanSequencer::CompareSpans() {
+  if (tracks_.empty() || !tracks_[first_lidar_].clock().has_started()) return;
+  const LidarTrack& first = tracks_[first_lidar_];
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const LidarClock& clock = tracks_[i].clock();
+    if (i == first_lidar_ || !clock.has_started()) continue;
+    const std::int64_t begin_ns = tracks_[i].first_ns() - first.first_ns();
+    const std::int64_t end_ns = clock.last().begin_ns - first.clock().last().begin_ns;
+    const std::int64_t periods_ns = clock.period_ns() + first.clock().period_ns();
+    const bool is_shifted = std::abs(begin_ns) > std::max(kSmallShift_ns, 3 * periods_ns);
+    if (!is_shifted || std::abs(begin_ns - end_ns) > periods_ns + kSmallShift_ns / 10) continue;
+    report_.clocks_may_differ = true;
+    Remark(LidarName(i) + ": it begins " + Seconds(begin_ns) + " after " + LidarName(first_lidar_) +
+           " and ends " + Seconds(end_ns) +
+           " after it: if both recorded at the same time, their clocks differ, and "
+           "input.clock_offset_s of one must be set");
+  }
 }
 
 void ScanSequencer::Remark(const std::string& sentence) {

@@ -46,6 +46,7 @@ class ScanSequencer {
   void Apply(const Judgement& judgement);
   void Release();
   void Describe(std::size_t lidar);
+  void CompareSpans();
   void Remark(const std::string& sentence);
 
   std::int64_t max_lag_ns_;

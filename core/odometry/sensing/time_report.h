@@ -22,6 +22,9 @@ struct TimeReport {
   std::int64_t clock_steps = 0;  ///< Lasting ones: the later times are moved to go on.
   std::int64_t points = 0;       ///< Of the dropped scans, and those far from their scan's time.
 
+  /// One LiDAR begins later than another, and ends as much later.
+  bool clocks_may_differ = false;
+
   /// What a user should know, a sentence each.
   std::vector<std::string> remarks;
 
