@@ -105,47 +105,51 @@ bool IsWithin(std::int64_t reach_ns, std::int64_t a_ns, std::int64_t b_ns) {
          distance_ns > -reach_ns;
 }
 
-/// The earliest of the raw times, which are absolute.
-std::optional<std::int64_t> EarliestTime(const TimeConvention& convention, const LidarScan& scan) {
-  const auto middle_ns = MiddleTime(scan);
-  if (!middle_ns) return {};
-  std::int64_t earliest_ns = *middle_ns;
-  for (const LidarPoint& point : scan.points) {
-    if (point.t_ns == kNoTime || !point.xyz_m.allFinite() || point.t_ns >= earliest_ns) continue;
-    if (IsWithin(ReachNs(convention), point.t_ns, *middle_ns)) earliest_ns = point.t_ns;
-  }
-  return earliest_ns;
-}
-
-/// Where the times of a scan must lie: around its stamp, or, as a stamp may be wrong, where most
-/// are if they are absolute.
-std::int64_t CenterNs(const TimeConvention& convention, std::int64_t stamp_ns,
-                      const LidarScan& scan) {
-  if (!convention.IsAbsolute()) return stamp_ns;
+/// The median of absolute times in the clock of the recording; nothing if there are none, or if it
+/// is beyond any calendar.
+std::optional<std::int64_t> CenterNs(const TimeConvention& convention, const LidarScan& scan) {
   const auto middle_ns = MiddleTime(scan);
   std::int64_t center_ns = 0;
-  const bool is_time =
-      middle_ns && !__builtin_add_overflow(*middle_ns, convention.clock_offset_ns, &center_ns);
-  return is_time ? center_ns : stamp_ns;
+  if (!middle_ns || __builtin_add_overflow(*middle_ns, convention.clock_offset_ns, &center_ns)) {
+    return {};
+  }
+  constexpr std::int64_t kFar = std::int64_t{1} << 62;
+  if (!IsWithin(kFar, center_ns, 0) || !IsWithin(kFar, *middle_ns, 0)) return {};
+  return center_ns;
+}
+
+/// The stamp of a scan whose times are absolute: the given one if it is near them, as it may be
+/// missing or wrong, else the earliest of them.
+std::optional<std::int64_t> StampNs(const TimeConvention& convention,
+                                    std::optional<std::int64_t> given_ns, const LidarScan& scan) {
+  const auto center_ns = CenterNs(convention, scan);
+  const std::int64_t reach_ns = ReachNs(convention);
+  if (!center_ns || (given_ns && IsWithin(reach_ns / 2, *given_ns, *center_ns))) return given_ns;
+  const std::int64_t middle_ns = *center_ns - convention.clock_offset_ns;
+  std::int64_t earliest_ns = middle_ns;
+  for (const LidarPoint& point : scan.points) {
+    if (point.t_ns == kNoTime || !point.xyz_m.allFinite() || point.t_ns >= earliest_ns) continue;
+    if (IsWithin(reach_ns, point.t_ns, middle_ns)) earliest_ns = point.t_ns;
+  }
+  return earliest_ns + convention.clock_offset_ns;
 }
 
 /// Moves raw times (ns since the file's zero) to the clock of the recording and disarms the
 /// impossible ones.
 std::size_t PlaceTimes(const TimeConvention& convention, std::int64_t stamp_ns, LidarScan* scan) {
   const std::int64_t reach_ns = ReachNs(convention);
-  const std::int64_t center_ns = CenterNs(convention, stamp_ns, *scan);
   const std::int64_t zero_ns = convention.IsAbsolute() ? convention.clock_offset_ns
                                                        : stamp_ns + convention.ZeroAfterStampNs();
   std::size_t broken = 0;
   for (LidarPoint& point : scan->points) {
     std::int64_t t_ns = 0;
     const bool overflow = __builtin_add_overflow(point.t_ns, zero_ns, &t_ns);
-    if (point.t_ns != kNoTime && !overflow && IsWithin(reach_ns, t_ns, center_ns)) {
+    if (point.t_ns != kNoTime && !overflow && IsWithin(reach_ns, t_ns, stamp_ns)) {
       point.t_ns = t_ns;
       continue;
     }
     if (point.xyz_m.allFinite()) ++broken;
-    point.t_ns = center_ns;
+    point.t_ns = stamp_ns;
     point.xyz_m.setConstant(std::numeric_limits<float>::quiet_NaN());
   }
   return broken;
@@ -211,7 +215,7 @@ std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& tabl
                   [&](std::size_t i, auto value) { points[i].t_ns = ToNs(value, unit_ns); });
     }
   }
-  if (!stamp_ns && time != nullptr) stamp_ns = EarliestTime(convention, *scan);
+  if (time != nullptr && convention.IsAbsolute()) stamp_ns = StampNs(convention, stamp_ns, *scan);
   if (!stamp_ns) {
     throw InputError(path, "no point has a time, and the scan has no stamp", "");
   }

@@ -137,6 +137,7 @@ bool NaturalLess(std::string_view a, std::string_view b) {
 ScanListing ListScans(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) {
+    if (error) throw InputError(path, "cannot be opened: " + error.message(), "");
     throw InputError(path, "there is no such folder", "Check the path. " + std::string(kMend));
   }
   if (!fs::is_directory(path, error)) throw InputError(path, "this is not a folder", kMend);

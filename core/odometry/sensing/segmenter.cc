@@ -142,7 +142,7 @@ Segmenter::Slot* Segmenter::DiscreteSlotAt(std::int64_t stamp_ns) {
     OpenNext(stamp_ns, true);
   } else if (stamp_ns >= *end_ns_ + kShortest_ns) {
     const std::int64_t step_ns = stamp_ns - *end_ns_;
-    if (step_ns > max_gap_ns_) {
+    if (step_ns > std::max(max_gap_ns_, 2 * kShortest_ns)) {
       OpenNext(stamp_ns - std::min(discrete_step_ns_, step_ns / 2), true, true);
     } else {
       discrete_step_ns_ = step_ns;
