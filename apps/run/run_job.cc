@@ -121,7 +121,7 @@ class Run {
     s.warnings = s.times.remarks;
     const std::string odd_stamps = s.OddStamps();
     if (!odd_stamps.empty()) {
-      s.warnings.push_back("of " + std::to_string(s.times.scans) + " scans " + odd_stamps);
+      s.warnings.push_back("of " + std::to_string(s.times.scans) + " scans: " + odd_stamps);
     }
     s.warnings.insert(s.warnings.end(), s.read.warnings.begin(), s.read.warnings.end());
     if (sampler_.scans_without_pose() > 0) {
@@ -197,11 +197,14 @@ std::string MissingInput(const RunSummary& s) {
   }
   if (s.ShareWithWrongTimes() > kSizeableShare) {
     parts.push_back(std::to_string(std::lround(100.0 * s.ShareWithWrongTimes())) +
-                    " % of the points were dropped because of their times");
+                    " % of the points were dropped because of their times (" +
+                    std::to_string(s.points.too_late) + " too late, " +
+                    std::to_string(s.points.wrong_time) + " of wrong stamps, " +
+                    std::to_string(s.read.points_without_time) + " impossible)");
   }
   const auto scans = static_cast<double>(s.times.scans);
-  if (static_cast<double>(s.times.retimed) > kSizeableShare * scans) {
-    parts.push_back("the times of " + std::to_string(s.times.retimed) + " of " +
+  if (static_cast<double>(s.times.assumed) > kSizeableShare * scans) {
+    parts.push_back("the times of " + std::to_string(s.times.assumed) + " of " +
                     std::to_string(s.times.scans) + " scans are assumed");
   }
   if (s.times.clocks_may_differ) parts.push_back("the clocks of the LiDARs may differ");

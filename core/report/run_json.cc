@@ -36,6 +36,7 @@ Json InputJson(const RunSummary& s) {
             {"skipped", s.read.scans_skipped},
             {"reordered", s.times.reordered},
             {"retimed", s.times.retimed},
+            {"time_assumed", s.times.assumed},
             {"stamp_fits_nowhere", s.times.misfits},
             {"stamp_repeated", s.times.repeated},
             {"clock_apart", s.times.apart}}},

@@ -17,10 +17,11 @@ std::string RunSummary::OddStamps() const {
     text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
   };
   add(times.reordered, "put in order");
-  add(times.retimed, "timed by their neighbours because their stamps are wrong");
-  add(times.misfits, "dropped because their stamps fit nowhere");
-  add(times.repeated, "dropped because their stamps are taken");
-  add(times.apart, "dropped because their LiDAR's clock does not meet that of the first");
+  add(times.retimed, "given the time between their neighbours (wrong stamps)");
+  add(times.assumed, "given an assumed time (the stamps stand still)");
+  add(times.misfits, "dropped (their stamps fit nowhere)");
+  add(times.repeated, "dropped (repeated)");
+  add(times.apart, "left out (their clock does not meet that of the first LiDAR)");
   return text;
 }
 

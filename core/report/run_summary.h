@@ -53,8 +53,8 @@ struct RunSummary {
 
   /// The share of the points that were dropped because of their times.
   double ShareWithWrongTimes() const;
-  /// What happened to scans with odd stamps, and how often: "3 got their times from ..., ...";
-  /// empty if nothing did.
+  /// What became of scans with odd stamps, and of how many: "3 put in order, 1 dropped (...)";
+  /// empty if there were none.
   std::string OddStamps() const;
 
   double DataSeconds() const {

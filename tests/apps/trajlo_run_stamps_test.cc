@@ -92,7 +92,7 @@ TEST_F(StampsTest, OneWrongStampCostsOneScanAtMost) {
       const Outcome outcome = RunAnew();
       EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
       EXPECT_THAT(outcome.err,
-                  HasSubstr(at == 0 ? "of 24 scans 1 dropped" : "of 24 scans 1 timed"));
+                  HasSubstr(at == 0 ? "of 24 scans: 1 dropped" : "of 24 scans: 1 given"));
       EXPECT_EQ(Count("stamp_fits_nowhere"), at == 0 ? 1 : 0);
       EXPECT_EQ(Count("retimed"), at == 0 ? 0 : 1);
       ExpectRight();

@@ -2,8 +2,6 @@
 #include "core/odometry/sensing/lidar_clock.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <limits>
 
 namespace trajlo {
 namespace {
@@ -20,20 +18,6 @@ constexpr std::size_t kRemembered = 16;
 constexpr std::int64_t kLongestPeriod_ns = 10 * kSecond;
 
 }  // namespace
-
-std::int64_t Sum(std::int64_t a, std::int64_t b) {
-  std::int64_t sum = 0;
-  if (!__builtin_add_overflow(a, b, &sum)) return sum;
-  return a < 0 ? std::numeric_limits<std::int64_t>::min()
-               : std::numeric_limits<std::int64_t>::max();
-}
-
-std::int64_t Difference(std::int64_t a, std::int64_t b) {
-  std::int64_t difference = 0;
-  if (!__builtin_sub_overflow(a, b, &difference)) return difference;
-  return a < b ? std::numeric_limits<std::int64_t>::min()
-               : std::numeric_limits<std::int64_t>::max();
-}
 
 std::int64_t LidarClock::longest_step_ns() const { return std::max(kSecond, 3 * period_ns_); }
 

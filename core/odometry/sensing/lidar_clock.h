@@ -64,8 +64,4 @@ class LidarClock {
   bool copies_stamps_ = true;  ///< So do all times of recording so far.
 };
 
-/// Wrong stamps can be any number: these end at the largest or smallest one where they overflow.
-std::int64_t Sum(std::int64_t a, std::int64_t b);
-std::int64_t Difference(std::int64_t a, std::int64_t b);
-
 }  // namespace trajlo

@@ -8,22 +8,13 @@ namespace trajlo {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
-/// So many scans show the period at the start, in spite of one with a wrong stamp.
-constexpr std::size_t kHeldAtStart = 5;
 /// Scans that must go on from each other before a pause is believed, or a step of the clock.
 constexpr std::size_t kConfirmPause = 3;
 constexpr std::size_t kConfirmStep = 5;
-constexpr std::size_t kMostHeld = 8;
 /// A scan that more of those behind it overtake did not come early: its stamp is wrong.
 constexpr int kMostOvertaken = 2;
-/// Scans that are told from others when they come again.
-constexpr std::size_t kRemembered = 32;
 /// A longer jump ahead is a step of the clock, if nothing else tells.
 constexpr std::int64_t kLongestPause_ns = 60 * kSecond;
-
-std::int64_t Distance(std::int64_t a, std::int64_t b) {
-  return a > b ? Difference(a, b) : Difference(b, a);
-}
 
 }  // namespace
 
@@ -42,23 +33,7 @@ void LidarTrack::NoteAt(const ScanPlace& place, const LidarScan& scan, const Sca
   clock_.Note(scan, place);
   last_recorded_begin_ns_ = times.begin_ns;
   stands_still_ = false;
-  handed_.push_back({place.begin_ns, Fingerprint(scan)});
-  if (handed_.size() > kRemembered) handed_.pop_front();
-}
-
-/// True if the same points were handed on before.
-bool LidarTrack::IsKnown(const HeldScan& held) const {
-  const std::uint64_t fingerprint = Fingerprint(held.scan);
-  return std::any_of(handed_.begin(), handed_.end(),
-                     [&](const Handed& other) { return other.fingerprint == fingerprint; });
-}
-
-/// True if other points were handed on for the same time.
-bool LidarTrack::IsNewAtTakenPlace(const HeldScan& held) const {
-  const std::int64_t begin_ns = PlaceOf(held).begin_ns;
-  return !IsKnown(held) && std::any_of(handed_.begin(), handed_.end(), [&](const Handed& other) {
-    return Distance(other.begin_ns, begin_ns) <= clock_.period_ns() / 2;
-  });
+  memory_.Add(place.begin_ns, scan);
 }
 
 /// True if the scan goes on, at a steady period, from others that repeat times with new points: the
@@ -68,7 +43,8 @@ bool LidarTrack::ComesFromBehind(std::size_t i) const {
     const HeldScan& before = *held_[i - 1];
     const std::int64_t step_ns = Difference(held_[i]->times.begin_ns, before.times.begin_ns);
     if (!clock_.IsPeriod(step_ns)) return false;
-    if (Ahead(before) <= 0 && IsNewAtTakenPlace(before)) return true;
+    const bool is_taken = memory_.HasTime(PlaceOf(before).begin_ns, clock_.period_ns() / 2);
+    if (Ahead(before) <= 0 && is_taken && !memory_.HasPoints(before.scan)) return true;
   }
   return false;
 }
@@ -98,67 +74,6 @@ std::size_t LidarTrack::ChainLength(std::size_t first) const {
   std::size_t end = first + 1;
   while (end < held_.size() && IsPlausibleStep(*held_[end - 1], *held_[end])) ++end;
   return end - first;
-}
-
-/// The first scans: nothing is handed on until two of them go on from each other.
-bool LidarTrack::Start(const Others& others, bool is_final) {
-  if (held_.size() < kHeldAtStart && !is_final) return false;
-  std::vector<std::int64_t> begins_ns, spans_ns;
-  for (const HeldScan* held : held_) {
-    begins_ns.push_back(held->times.begin_ns);
-    spans_ns.push_back(held->times.end_ns - held->times.begin_ns);
-  }
-  clock_.GuessPeriod(begins_ns, spans_ns);
-  if (others.reference != nullptr && !FindOffset(others)) {
-    while (!held_.empty()) Remove(held_.front(), ScanFate::kApart, 0);
-    return true;
-  }
-  std::size_t first = FirstOfChain();
-  if (first == held_.size()) {
-    if (held_.size() < kMostHeld && !is_final) return false;
-    const bool all_equal = std::all_of(held_.begin(), held_.end(), [&](const HeldScan* held) {
-      return held->times.begin_ns == begins_ns.front();
-    });
-    if (!all_equal && !is_final) {
-      Drop(held_.front());
-      return true;
-    }
-    first = 0;
-  }
-  HandOn(held_[first], ScanFate::kHandedOn, PlaceOf(*held_[first]));
-  return true;
-}
-
-/// Whether the times meet those of the first LiDAR, and if so, by which offset.
-bool LidarTrack::FindOffset(const Others& others) {
-  const LidarClock& reference = others.reference->clock();
-  std::vector<std::int64_t> ahead_ns;
-  for (const HeldScan* held : held_) {
-    ahead_ns.push_back(Difference(held->times.begin_ns, held->reference_ns));
-  }
-  const std::int64_t median_ns = *LowerMedian(ahead_ns);
-  const std::int64_t bound_ns = others.max_lag_ns + clock_.period_ns() + reference.period_ns();
-  // If the times as they were recorded meet, they are of one clock.
-  const bool is_same_clock = Distance(median_ns, 0) <= bound_ns;
-  if (!is_same_clock && Distance(median_ns, reference.offset_ns()) > bound_ns) {
-    apart_ = Apart{median_ns, held_.front()->reference_ns == held_.back()->reference_ns};
-    return false;
-  }
-  clock_.set_offset_ns(is_same_clock ? reference.offset_ns() : 0);
-  return true;
-}
-
-/// The first scan that others go on from; one past the end if there is none.
-std::size_t LidarTrack::FirstOfChain() const {
-  std::size_t first = 0;
-  while (first < held_.size() && ChainLength(first) < 2) ++first;
-  if (first == held_.size()) return first;
-  const auto follows = [&](std::size_t i) {
-    const std::int64_t step_ns = Difference(held_[i]->times.begin_ns, held_[i - 1]->times.begin_ns);
-    return step_ns > 0 && step_ns <= clock_.longest_step_ns();
-  };
-  while (first > 0 && follows(first)) --first;
-  return first;
 }
 
 bool LidarTrack::HandOnNext() {
@@ -270,7 +185,7 @@ void LidarTrack::PlaceThoseBefore(const HeldScan& anchor) {
     const std::int64_t begin_ns = PlaceOf(*held).begin_ns;
     if (begin_ns > last.begin_ns && begin_ns < end.begin_ns) {
       in_place.push_back(held);
-    } else if (IsKnown(*held)) {
+    } else if (memory_.HasPoints(held->scan)) {
       known.push_back(held);
     } else if (!CameEarly(*held, anchor)) {
       displaced.push_back(held);
@@ -347,13 +262,13 @@ void LidarTrack::GiveUpOldest(const Others& others) {
     HandOn(oldest, ScanFate::kHandedOn, PlaceOf(*oldest));
     return;
   }
-  if (!StandsStill() || IsKnown(*oldest)) {
+  if (!StandsStill() || memory_.HasPoints(oldest->scan)) {
     Drop(oldest);
     return;
   }
   const ScanPlace last = clock_.last();
   const std::int64_t recorded_ns = last_recorded_begin_ns_;
-  HandOn(oldest, ScanFate::kRetimed,
+  HandOn(oldest, ScanFate::kAssumed,
          {last.begin_ns + clock_.period_ns(), last.stamp_ns + clock_.period_ns()});
   last_recorded_begin_ns_ = recorded_ns;
   stands_still_ = true;
@@ -375,8 +290,8 @@ void LidarTrack::HandOn(HeldScan* held, ScanFate fate, const ScanPlace& place) {
 void LidarTrack::Drop(HeldScan* held) {
   const bool is_repeated =
       clock_.has_started() &&
-      (IsKnown(*held) || Distance(PlaceOf(*held).begin_ns, clock_.last().begin_ns) <=
-                             clock_.period_ns() + clock_.period_ns() / 2);
+      (memory_.HasPoints(held->scan) || Distance(PlaceOf(*held).begin_ns, clock_.last().begin_ns) <=
+                                            clock_.period_ns() + clock_.period_ns() / 2);
   Remove(held, is_repeated ? ScanFate::kRepeated : ScanFate::kMisfit, 0);
 }
 

@@ -3,13 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/odometry/sensing/lidar_clock.h"
 #include "core/odometry/sensing/lidar_scan.h"
+#include "core/odometry/sensing/scan_memory.h"
 #include "core/odometry/sensing/scan_times.h"
 
 namespace trajlo {
@@ -26,7 +26,7 @@ struct HeldScan {
   int overtaken = 0;
 };
 
-enum class ScanFate { kHandedOn, kReordered, kRetimed, kMisfit, kRepeated, kApart };
+enum class ScanFate { kHandedOn, kReordered, kRetimed, kAssumed, kMisfit, kRepeated, kApart };
 
 struct Judgement {
   HeldScan* held;
@@ -96,6 +96,9 @@ class LidarTrack {
   std::int64_t first_ns() const { return first_ns_; }
 
  private:
+  /// While so many are held, the oldest waits for more.
+  static constexpr std::size_t kMostHeld = 8;
+
   void NoteAt(const ScanPlace& place, const LidarScan& scan, const ScanTimes& times);
   ScanPlace PlaceOf(const HeldScan& held) const { return clock_.PlaceOf(held.scan, held.times); }
   /// How far the scan lies behind the last that was handed on.
@@ -115,8 +118,6 @@ class LidarTrack {
   std::size_t FindStep(const Others& others, bool is_final) const;
   void TakeBackStep(std::size_t anchor, const Others& others);
   void PlaceThoseBefore(const HeldScan& anchor);
-  bool IsKnown(const HeldScan& held) const;
-  bool IsNewAtTakenPlace(const HeldScan& held) const;
   bool ComesFromBehind(std::size_t i) const;
   bool CameEarly(const HeldScan& held, const HeldScan& anchor) const;
   void SpreadEvenly(const std::vector<HeldScan*>& displaced, const ScanPlace& end);
@@ -133,11 +134,7 @@ class LidarTrack {
   std::int64_t first_ns_ = 0;
   std::int64_t last_recorded_begin_ns_ = 0;  ///< Of the last scan that was handed on.
   bool stands_still_ = false;                ///< The last scan got its time because stamps do.
-  struct Handed {
-    std::int64_t begin_ns;
-    std::uint64_t fingerprint;
-  };
-  std::deque<Handed> handed_;  ///< The scans that were handed on lately.
+  ScanMemory memory_;
   std::vector<Judgement> judgements_;
   std::optional<Step> step_;
   std::optional<Apart> apart_;

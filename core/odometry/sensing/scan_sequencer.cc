@@ -103,6 +103,9 @@ void ScanSequencer::Apply(const Judgement& judgement) {
     case ScanFate::kRetimed:
       ++report_.retimed;
       break;
+    case ScanFate::kAssumed:
+      ++report_.assumed;
+      break;
     case ScanFate::kMisfit:
       ++report_.misfits;
       break;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace trajlo {
@@ -98,6 +99,24 @@ void ShiftTimes(std::int64_t shift_ns, LidarScan* scan) {
   if (shift_ns == 0) return;
   scan->stamp_ns += shift_ns;
   for (LidarPoint& point : scan->points) point.t_ns += shift_ns;
+}
+
+std::int64_t Sum(std::int64_t a, std::int64_t b) {
+  std::int64_t sum = 0;
+  if (!__builtin_add_overflow(a, b, &sum)) return sum;
+  return a < 0 ? std::numeric_limits<std::int64_t>::min()
+               : std::numeric_limits<std::int64_t>::max();
+}
+
+std::int64_t Difference(std::int64_t a, std::int64_t b) {
+  std::int64_t difference = 0;
+  if (!__builtin_sub_overflow(a, b, &difference)) return difference;
+  return a < b ? std::numeric_limits<std::int64_t>::min()
+               : std::numeric_limits<std::int64_t>::max();
+}
+
+std::int64_t Distance(std::int64_t a, std::int64_t b) {
+  return a > b ? Difference(a, b) : Difference(b, a);
 }
 
 }  // namespace trajlo

@@ -34,4 +34,10 @@ void RemoveStrays(const ScanTimes& times, LidarScan* scan);
 /// Adds `shift_ns` to the stamp and to the times of all points.
 void ShiftTimes(std::int64_t shift_ns, LidarScan* scan);
 
+/// Wrong stamps can be any number: these end at the largest or smallest one where they overflow.
+std::int64_t Sum(std::int64_t a, std::int64_t b);
+std::int64_t Difference(std::int64_t a, std::int64_t b);
+/// The absolute difference.
+std::int64_t Distance(std::int64_t a, std::int64_t b);
+
 }  // namespace trajlo

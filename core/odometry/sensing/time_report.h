@@ -14,6 +14,7 @@ struct TimeReport {
   // Handed on.
   std::int64_t reordered = 0;  ///< Before scans that came earlier.
   std::int64_t retimed = 0;    ///< At the free place between their neighbours.
+  std::int64_t assumed = 0;    ///< A period after the scan before, as the stamps stand still.
   // Dropped.
   std::int64_t misfits = 0;   ///< The stamp fits nowhere.
   std::int64_t repeated = 0;  ///< The place of the stamp is taken.
