@@ -2,6 +2,7 @@
 #include "apps/run/run_job.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <sstream>
@@ -42,6 +43,12 @@ std::vector<std::string> Lines(const std::string& text) {
   return lines;
 }
 
+SamplingOptions WithGaps(const RunRequest& request) {
+  SamplingOptions sampling = request.sampling;
+  sampling.max_gap_s = request.config.odometry.segmenter.max_gap_s;
+  return sampling;
+}
+
 /// One run from the first scan to the last file. The summary belongs to the caller, who needs it
 /// when a member throws.
 class Run {
@@ -52,10 +59,16 @@ class Run {
         folder_(folder),
         recording_(recording),
         summary_(summary),
-        sampler_(request.sampling),
+        sampler_(WithGaps(request)),
         trajectory_(folder.trajectory(), IfExists::kReplace),
         windows_(folder.windows(), IfExists::kReplace),
         odometry_(request.config.odometry, MakeSolverFactory(request.config.ceres_form)) {
+    odometry_.OnScan([this](const LidarScan& scan) {
+      sampler_.NoteScan(scan);
+      if (view_) view_->Note(scan);
+      if (!first_ns_) first_ns_ = scan.stamp_ns;
+      newest_ns_ = scan.stamp_ns;
+    });
     odometry_.OnWindow([this](const WindowStatistics& window) {
       windows_.Append(window);
       summary_->windows.Add(window);
@@ -73,19 +86,18 @@ class Run {
   void Estimate(const std::atomic<bool>& stop) {
     ProgressBar bar(stderr, request_.quiet);
     const Clock::time_point begin = Clock::now();
-    std::int64_t first_ns = 0;
     LidarScan scan;
     for (std::size_t count = 0; !stop && recording_->Next(&scan); ++count) {
-      if (count == 0) first_ns = scan.stamp_ns;
-      sampler_.NoteScan(scan);
-      if (view_) view_->Note(scan);
-      Timed(scan.stamp_ns, [&] { odometry_.AddScan(scan); });
-      sampler_.Advance(odometry_.trajectory(), Append());
-      bar.Update({count + 1, recording_->size(),
-                  1e-9 * static_cast<double>(scan.stamp_ns - first_ns), SecondsSince(begin),
-                  inlier_share_});
+      Timed([&] { odometry_.AddScan(scan); });
+      sampler_.Advance(odometry_.trajectory(), [&](std::int64_t t_ns, const SE3& T) {
+        trajectory_.Append(t_ns, T);
+        return !stop;
+      });
+      const std::int64_t data_ns = newest_ns_ - first_ns_.value_or(newest_ns_);
+      bar.Update({count + 1, recording_->size(), 1e-9 * static_cast<double>(data_ns),
+                  SecondsSince(begin), inlier_share_});
     }
-    Timed(scan.stamp_ns, [&] { odometry_.Finish(); });
+    Timed([&] { odometry_.Finish(); });
   }
 
   /// Completes the files that grew and writes those that did not.
@@ -109,9 +121,15 @@ class Run {
     RunSummary& s = *summary_;
     s.read = recording_->report();
     s.points = odometry_.point_counts();
+    s.times = odometry_.time_report();
     s.lost_at_ns = odometry_.lost_at_ns();
     s.poses_written = sampler_.written();
-    s.warnings = s.read.warnings;
+    s.warnings = s.times.remarks;
+    const std::string odd_stamps = s.OddStamps();
+    if (!odd_stamps.empty()) {
+      s.warnings.push_back("of " + std::to_string(s.times.scans) + " scans: " + odd_stamps);
+    }
+    s.warnings.insert(s.warnings.end(), s.read.warnings.begin(), s.read.warnings.end());
     if (sampler_.scans_without_pose() > 0) {
       s.warnings.push_back(std::to_string(sampler_.scans_without_pose()) +
                            " scans have no pose: repeated, out of order, or without points");
@@ -136,15 +154,19 @@ class Run {
   }
 
  private:
+  /// The time counts for the data that was used last.
   template <typename Work>
-  void Timed(std::int64_t t_ns, const Work& work) {
+  void Timed(const Work& work) {
     const Clock::time_point begin = Clock::now();
     work();
-    processing_.Add(t_ns, 1e3 * SecondsSince(begin));
+    if (first_ns_) processing_.Add(newest_ns_, 1e3 * SecondsSince(begin));
   }
 
   TrajectorySampler::Visit Append() {
-    return [this](std::int64_t t_ns, const SE3& T) { trajectory_.Append(t_ns, T); };
+    return [this](std::int64_t t_ns, const SE3& T) {
+      trajectory_.Append(t_ns, T);
+      return true;
+    };
   }
 
   const RunRequest& request_;
@@ -158,6 +180,8 @@ class Run {
   std::optional<ScanSampler> view_;
   Odometry odometry_;
   ProcessingTime processing_;
+  std::optional<std::int64_t> first_ns_;  ///< Stamps of the scans that were used.
+  std::int64_t newest_ns_ = 0;
   double inlier_share_ = 0.0;
 };
 
@@ -165,6 +189,35 @@ void End(ExitCode code, const char* reason, const std::string& message, RunSumma
   summary->exit_code = static_cast<int>(code);
   summary->exit_reason = reason;
   summary->message = message;
+}
+
+/// What is missing in the input, or cannot be relied on; empty if it is little.
+std::string MissingInput(const RunSummary& s) {
+  constexpr double kSizeableShare = 0.05;
+  std::vector<std::string> parts;
+  if (s.read.file_is_cut) parts.push_back("a part of the file is missing or broken");
+  if (s.read.scans_damaged > 0) {
+    parts.push_back(std::to_string(s.read.scans_damaged) + " scans are damaged");
+  }
+  if (s.read.scans_skipped > 0) {
+    parts.push_back(std::to_string(s.read.scans_skipped) + " scans could not be read at all");
+  }
+  if (s.ShareWithWrongTimes() > kSizeableShare) {
+    parts.push_back(std::to_string(std::lround(100.0 * s.ShareWithWrongTimes())) +
+                    " % of the points were dropped because of their times (" +
+                    std::to_string(s.points.too_late) + " too late, " +
+                    std::to_string(s.points.wrong_time) + " of wrong stamps, " +
+                    std::to_string(s.read.points_without_time) + " impossible)");
+  }
+  const auto scans = static_cast<double>(s.times.scans);
+  if (static_cast<double>(s.times.assumed) > kSizeableShare * scans) {
+    parts.push_back("the times of " + std::to_string(s.times.assumed) + " of " +
+                    std::to_string(s.times.scans) + " scans are assumed");
+  }
+  if (s.times.clocks_may_differ) parts.push_back("the clocks of the LiDARs may differ");
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", and ") + part;
+  return text;
 }
 
 /// The outcome of a run that came to its end; what is worse wins.
@@ -182,11 +235,8 @@ void JudgeOutcome(bool interrupted, RunSummary* s) {
         "the estimator got lost at " + FormatSeconds(*s->lost_at_ns) +
             " s; poses from there on are not to be trusted (windows.csv shows what happened)",
         s);
-  } else if (s->read.IsPartial()) {
-    End(ExitCode::kPartialInput, "partial_input",
-        std::to_string(s->read.scans_damaged) + " scans are damaged and " +
-            std::to_string(s->read.scans_skipped) + " could not be read at all",
-        s);
+  } else if (const std::string missing = MissingInput(*s); !missing.empty()) {
+    End(ExitCode::kPartialInput, "partial_input", missing + "; the warnings say more", s);
   } else {
     End(ExitCode::kOk, "ok", "", s);
   }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <vector>
 
 #include "core/io/errors.h"
 #include "core/io/pcd_reader.h"
@@ -28,28 +30,50 @@ void CheckPlausible(const std::filesystem::path& path, const PointTable& table) 
     });
   }
   if (10 * implausible <= checked) return;
-  throw InputError(path,
-                   std::to_string(implausible) + " of the first " +
-                       std::to_string(checked * table.columns.size()) +
-                       " numbers cannot be metres or intensities",
-                   "A .bin scan holds float32 x y z intensity and nothing else.");
+  throw InputError(
+      path,
+      std::to_string(implausible) + " of the first " +
+          std::to_string(checked * table.columns.size()) +
+          " numbers cannot be metres or intensities",
+      "A .bin scan holds float32 x y z intensity, or x y z intensity ring, and nothing else.");
 }
 
-PointTable ReadKittiBin(const std::filesystem::path& path, FileBytes bytes) {
+constexpr std::size_t kRingBytes = 5 * sizeof(float);
+
+/// True for x y z intensity ring, as nuScenes has them: the last of five numbers is a small whole
+/// one in every point, which of coordinates and intensities only zeros are.
+bool HasRings(const FileBytes& bytes) {
+  if (bytes.size() == 0 || bytes.size() % kRingBytes != 0) return false;
+  const std::size_t checked = std::min<std::size_t>(bytes.size() / kRingBytes, 10000);
+  bool any = false;
+  for (std::size_t i = 0; i < checked; ++i) {
+    float ring = 0.0F;
+    std::memcpy(&ring, bytes.data() + i * kRingBytes + 4 * sizeof(float), sizeof(ring));
+    if (!(ring >= 0.0F && ring < 256.0F && ring == std::floor(ring))) return false;
+    any = any || ring > 0.0F;
+  }
+  return any;
+}
+
+/// Float32 without a header: KITTI's x y z intensity, or with a ring behind them.
+PointTable ReadBin(const std::filesystem::path& path, FileBytes bytes) {
   if (BeginsAsVelodynePayloads(bytes.view())) {
     throw InputError(path, "these are packets of a Velodyne, not the points of a scan",
                      "Give the file itself in place of its folder.");
   }
-  constexpr std::size_t kRowBytes = 4 * sizeof(float);
+  std::vector<const char*> names = {"x", "y", "z", "intensity"};
+  if (HasRings(bytes)) names.push_back("ring");
+  const std::size_t row_bytes = names.size() * sizeof(float);
   PointTable table;
-  table.count = bytes.size() / kRowBytes;
-  if (bytes.size() % kRowBytes != 0) {
+  table.count = bytes.size() / row_bytes;
+  if (bytes.size() % row_bytes != 0) {
     table.damage = std::to_string(bytes.size()) + " bytes are " + std::to_string(table.count) +
-                   " points of 16 bytes and a rest of " + std::to_string(bytes.size() % kRowBytes);
+                   " points of " + std::to_string(row_bytes) + " bytes and a rest of " +
+                   std::to_string(bytes.size() % row_bytes);
   }
   std::size_t offset = 0;
-  for (const char* name : {"x", "y", "z", "intensity"}) {
-    table.columns.push_back({name, ScalarType::kFloat32, offset, kRowBytes, false});
+  for (const char* name : names) {
+    table.columns.push_back({name, ScalarType::kFloat32, offset, row_bytes, false});
     offset += sizeof(float);
   }
   table.bytes = std::move(bytes);
@@ -68,7 +92,7 @@ PointTable ReadPointFile(const std::filesystem::path& path) {
   const std::string extension = Extension(path);
   if (extension == ".pcd") return ReadPcd(path, ReadFileBytes(path));
   if (extension == ".ply") return ReadPly(path, ReadFileBytes(path));
-  if (extension == ".bin") return ReadKittiBin(path, ReadFileBytes(path));
+  if (extension == ".bin") return ReadBin(path, ReadFileBytes(path));
   throw InputError(path, "unknown kind of point file", "Supported are .pcd, .ply and .bin.");
 }
 

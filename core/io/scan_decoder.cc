@@ -86,23 +86,52 @@ std::int64_t ReachNs(const TimeConvention& convention) {
   return 1'000'000'000 + 10 * convention.sweep_ns;
 }
 
-/// The earliest of the raw times, which are absolute. One broken early time must not move it.
-std::optional<std::int64_t> EarliestTime(const TimeConvention& convention, const LidarScan& scan) {
+/// The median of the raw times, which one broken time does not move; nothing if there are none.
+std::optional<std::int64_t> MiddleTime(const LidarScan& scan) {
   std::vector<std::int64_t> times;
   times.reserve(scan.points.size());
   for (const LidarPoint& point : scan.points) {
     if (point.t_ns != kNoTime && point.xyz_m.allFinite()) times.push_back(point.t_ns);
   }
   if (times.empty()) return {};
-  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
-  const std::int64_t middle = times[times.size() / 2];
-  std::int64_t earliest = middle;
-  for (const std::int64_t t : times) {
-    std::int64_t before_middle = 0;
-    if (__builtin_sub_overflow(middle, t, &before_middle)) continue;
-    if (t < earliest && before_middle < ReachNs(convention)) earliest = t;
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  return *middle;
+}
+
+bool IsWithin(std::int64_t reach_ns, std::int64_t a_ns, std::int64_t b_ns) {
+  std::int64_t distance_ns = 0;
+  return !__builtin_sub_overflow(a_ns, b_ns, &distance_ns) && distance_ns < reach_ns &&
+         distance_ns > -reach_ns;
+}
+
+/// The median of absolute times in the clock of the recording; nothing if there are none, or if it
+/// is beyond any calendar.
+std::optional<std::int64_t> CenterNs(const TimeConvention& convention, const LidarScan& scan) {
+  const auto middle_ns = MiddleTime(scan);
+  std::int64_t center_ns = 0;
+  if (!middle_ns || __builtin_add_overflow(*middle_ns, convention.clock_offset_ns, &center_ns)) {
+    return {};
   }
-  return earliest;
+  constexpr std::int64_t kFar = std::int64_t{1} << 62;
+  if (!IsWithin(kFar, center_ns, 0) || !IsWithin(kFar, *middle_ns, 0)) return {};
+  return center_ns;
+}
+
+/// The stamp of a scan whose times are absolute: the given one if it is near them, as it may be
+/// missing or wrong, else the earliest of them.
+std::optional<std::int64_t> StampNs(const TimeConvention& convention,
+                                    std::optional<std::int64_t> given_ns, const LidarScan& scan) {
+  const auto center_ns = CenterNs(convention, scan);
+  const std::int64_t reach_ns = ReachNs(convention);
+  if (!center_ns || (given_ns && IsWithin(reach_ns / 2, *given_ns, *center_ns))) return given_ns;
+  const std::int64_t middle_ns = *center_ns - convention.clock_offset_ns;
+  std::int64_t earliest_ns = middle_ns;
+  for (const LidarPoint& point : scan.points) {
+    if (point.t_ns == kNoTime || !point.xyz_m.allFinite() || point.t_ns >= earliest_ns) continue;
+    if (IsWithin(reach_ns, point.t_ns, middle_ns)) earliest_ns = point.t_ns;
+  }
+  return earliest_ns + convention.clock_offset_ns;
 }
 
 /// Moves raw times (ns since the file's zero) to the clock of the recording and disarms the
@@ -114,11 +143,8 @@ std::size_t PlaceTimes(const TimeConvention& convention, std::int64_t stamp_ns, 
   std::size_t broken = 0;
   for (LidarPoint& point : scan->points) {
     std::int64_t t_ns = 0;
-    std::int64_t after_stamp_ns = 0;
-    const bool overflow = __builtin_add_overflow(point.t_ns, zero_ns, &t_ns) ||
-                          __builtin_sub_overflow(t_ns, stamp_ns, &after_stamp_ns);
-    if (point.t_ns != kNoTime && !overflow && after_stamp_ns < reach_ns &&
-        after_stamp_ns > -reach_ns) {
+    const bool overflow = __builtin_add_overflow(point.t_ns, zero_ns, &t_ns);
+    if (point.t_ns != kNoTime && !overflow && IsWithin(reach_ns, t_ns, stamp_ns)) {
       point.t_ns = t_ns;
       continue;
     }
@@ -144,15 +170,19 @@ std::optional<TimeSample> SampleTimes(const PointTable& table, const Column& col
     VisitColumn(table, *coordinate, 0, table.count,
                 [&](std::size_t i, auto value) { size[i] += std::abs(static_cast<float>(value)); });
   }
-  std::optional<TimeSample> sample;
+  std::vector<double> times;
   VisitColumn(table, column, 0, table.count, [&](std::size_t i, auto value) {
     const auto time = static_cast<double>(value);
-    if (!(size[i] > 0.0F) || !std::isfinite(size[i]) || !std::isfinite(time)) return;
-    if (!sample) sample = TimeSample{time, time, {}, {}};
-    sample->first = std::min(sample->first, time);
-    sample->last = std::max(sample->last, time);
+    if (size[i] > 0.0F && std::isfinite(size[i]) && std::isfinite(time)) times.push_back(time);
   });
-  return sample;
+  if (times.empty()) return {};
+  std::sort(times.begin(), times.end());
+  // Of times that are spread evenly, five sweeps to either side.
+  const double middle = times[times.size() / 2];
+  const double reach = 10.0 * (times[times.size() * 3 / 4] - times[times.size() / 4]);
+  const auto first = std::lower_bound(times.begin(), times.end(), middle - reach);
+  const auto last = std::upper_bound(times.begin(), times.end(), middle + reach) - 1;
+  return TimeSample{*first, *last, times.size(), {}, {}};
 }
 
 std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& table,
@@ -185,7 +215,7 @@ std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& tabl
                   [&](std::size_t i, auto value) { points[i].t_ns = ToNs(value, unit_ns); });
     }
   }
-  if (!stamp_ns && time != nullptr) stamp_ns = EarliestTime(convention, *scan);
+  if (time != nullptr && convention.IsAbsolute()) stamp_ns = StampNs(convention, stamp_ns, *scan);
   if (!stamp_ns) {
     throw InputError(path, "no point has a time, and the scan has no stamp", "");
   }
@@ -193,12 +223,6 @@ std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& tabl
   if (time != nullptr) return PlaceTimes(convention, *stamp_ns, scan);
   for (LidarPoint& point : scan->points) point.t_ns = scan->stamp_ns;
   return 0;
-}
-
-void ShiftTimes(std::int64_t offset_ns, LidarScan* scan) {
-  if (offset_ns == 0) return;
-  scan->stamp_ns += offset_ns;
-  for (LidarPoint& point : scan->points) point.t_ns += offset_ns;
 }
 
 }  // namespace trajlo

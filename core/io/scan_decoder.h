@@ -22,16 +22,13 @@ const Column* FindTimeColumn(const PointTable& table, const std::string& wanted)
 std::optional<TimeSample> SampleTimes(const PointTable& table, const Column& column);
 
 /// Converts a table to `scan->points` (times in ns, absolute) and sets `scan->stamp_ns` and
-/// `scan->has_point_times`. Without `stamp_ns` the times must be absolute, and the earliest is
-/// taken as the stamp. A point whose time is not finite, or so far from its scan that it must be
-/// wrong, gets the stamp as its time and NaN as its position, so that it is dropped as one.
-/// Returns how many there were. Throws InputError if x, y or z is missing, or
-/// every source of a stamp.
+/// `scan->has_point_times`. Where times are absolute, the earliest is taken as the stamp if there
+/// is none, or if it is far from them; without absolute times there must be one. A point whose time
+/// is not finite, or so far from its scan that it must be wrong, gets the stamp as its time and NaN
+/// as its position, so that it is dropped as one. Returns how many there were. Throws InputError if
+/// x, y or z is missing, or every source of a stamp.
 std::size_t DecodeScan(const std::filesystem::path& path, const PointTable& table,
                        const TimeConvention& convention, std::optional<std::int64_t> stamp_ns,
                        LidarScan* scan);
-
-/// Adds `offset_ns` to the stamp and to the times of all points.
-void ShiftTimes(std::int64_t offset_ns, LidarScan* scan);
 
 }  // namespace trajlo

@@ -10,19 +10,11 @@
 #include "core/io/point_file.h"
 #include "core/io/scan_decoder.h"
 #include "core/io/stamp_text.h"
+#include "core/io/time_probe.h"
+#include "core/odometry/sensing/scan_times.h"
 
 namespace trajlo {
 namespace {
-
-/// The first scan of a recording is often partial: several are asked for their times.
-constexpr std::size_t kProbedScans = 5;
-
-[[noreturn]] void FailMissingTimeField(const std::filesystem::path& file, const PointTable& table,
-                                       const std::string& wanted) {
-  throw InputError(file,
-                   "time_field '" + wanted + "' is sought, but the file has: " + table.FieldNames(),
-                   "Set time_field to one of these, or leave it empty.");
-}
 
 std::string Milliseconds(std::int64_t ns) {
   char text[40];
@@ -44,52 +36,38 @@ ScanFolder::ScanFolder(const std::filesystem::path& path, const ScanFolderOption
   if (options_.read_ahead) StartNext({});
 }
 
-/// Decides the time convention from the first scans that can be read.
+/// Decides the time convention from the first scans that tell something.
 void ScanFolder::Probe() {
-  TimeEvidence evidence;
-  evidence.period_s = TypicalPeriod(stamps_.t_ns);
-  std::size_t readable = 0;
-  std::string fields;
+  TimeProbe probe(listing_.folder, options_.time);
   std::string first_problem;
-  for (std::size_t i = 0; i < listing_.files.size() && readable < kProbedScans; ++i) {
+  for (std::size_t i = 0; i < listing_.files.size() && !probe.IsComplete(); ++i) {
     const std::filesystem::path& file = listing_.files[i];
+    const auto of_scan = [&](const std::vector<std::int64_t>& times_ns) {
+      return times_ns.empty() ? std::nullopt : std::optional<std::int64_t>(times_ns[i]);
+    };
     PointTable table;
     try {
       table = ReadPointFile(file);
-      LidarScan scan;
-      DecodeScan(file, table, {}, 0, &scan);  // Throws if it has no positions.
     } catch (const InputError& error) {
       if (first_problem.empty()) first_problem = error.what();
       continue;
     }
-    ++readable;
-    if (fields.empty()) fields = table.FieldNames();
-    if (!options_.time.use_point_times || table.count == 0) continue;
-    const Column* column = FindTimeColumn(table, options_.time.field);
-    if (column == nullptr && !options_.time.field.empty()) {
-      FailMissingTimeField(file, table, options_.time.field);
-    }
-    if (column == nullptr || (!evidence.field.empty() && column->name != evidence.field)) continue;
-    evidence.path = file;
-    evidence.field = column->name;
-    evidence.type = column->type;
-    if (std::optional<TimeSample> sample = SampleTimes(table, *column)) {
-      if (!stamps_.t_ns.empty()) sample->stamp_ns = stamps_.t_ns[i];
-      evidence.samples.push_back(*sample);
+    const bool is_cloud = probe.Note(file, table, of_scan(stamps_.t_ns), of_scan(recorded_ns_));
+    if (!is_cloud && first_problem.empty()) {
+      first_problem = file.string() +
+                      ": the fields x, y and z are sought, but the file has: " + table.FieldNames();
     }
   }
-  if (readable == 0) {
+  if (probe.readable() == 0) {
     throw InputError(listing_.folder,
                      "none of the " + std::to_string(listing_.files.size()) +
                          " scans can be read; the first says: " + first_problem,
                      "");
   }
-  if (!options_.time.use_point_times) {
-    convention_.evidence = "no point times: switched off by point_time none";
-  } else if (evidence.field.empty()) {
-    convention_.evidence = "no point times: none of the fields (" + fields + ") has a known name";
-  } else {
-    convention_ = DeduceTimeConvention(evidence, options_.time);
+  probe.set_period_s(TypicalPeriod(stamps_.t_ns));
+  convention_ = probe.Decide();
+  if (!convention_.doubt.empty()) {
+    report_.warnings.push_back(listing_.folder.string() + ": " + convention_.doubt);
   }
 }
 
@@ -141,6 +119,8 @@ ScanFolder::Outcome ScanFolder::Decode(std::size_t index, LidarScan reused) cons
     outcome.points_without_time = DecodeScan(file, table, convention_, stamp_ns, &outcome.scan);
     ShiftTimes(options_.clock_offset_ns, &outcome.scan);
     outcome.scan.lidar_id = options_.lidar_id;
+    outcome.scan.recorded_ns = std::nullopt;
+    if (!recorded_ns_.empty()) outcome.scan.recorded_ns = recorded_ns_[index];
     outcome.readable = true;
   } catch (const std::exception& error) {
     outcome.damage = error.what();

@@ -61,6 +61,12 @@ struct FolderContent {
   }
 };
 
+/// A link to a scan that is not there. It is listed, so that the scan is missed when it is read.
+bool IsDanglingLink(const fs::directory_entry& entry) {
+  std::error_code ignored;
+  return entry.is_symlink(ignored) && !entry.exists(ignored);
+}
+
 FolderContent Look(const fs::path& folder) {
   FolderContent content;
   std::error_code error;
@@ -70,7 +76,7 @@ FolderContent Look(const fs::path& folder) {
     if (path.filename().string().front() == '.') continue;
     if (it->is_directory(ignored)) {
       content.subfolders.push_back(path);
-    } else if (IsPointFile(path) && it->is_regular_file(ignored)) {
+    } else if (IsPointFile(path) && (it->is_regular_file(ignored) || IsDanglingLink(*it))) {
       content.scans_by_extension[NormalisedFieldName(path.extension().string())].push_back(path);
     } else {
       ++content.other_files;
@@ -131,6 +137,7 @@ bool NaturalLess(std::string_view a, std::string_view b) {
 ScanListing ListScans(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) {
+    if (error) throw InputError(path, "cannot be opened: " + error.message(), "");
     throw InputError(path, "there is no such folder", "Check the path. " + std::string(kMend));
   }
   if (!fs::is_directory(path, error)) throw InputError(path, "this is not a folder", kMend);

@@ -29,24 +29,25 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// Of so many scans, one may be broken; of fewer, none.
+std::size_t BrokenAllowed(const std::vector<TimeSample>& samples) {
+  return samples.size() >= 4 ? 1 : 0;
+}
+
 /// The evidence of several scans in a few numbers, in the file's unit.
 struct Summary {
-  double first = 0.0, last = 0.0, span = 0.0, largest = 0.0;
+  double first = 0.0, last = 0.0, span = 0.0, size = 0.0;
 };
 
 Summary Summarise(const std::vector<TimeSample>& samples) {
-  std::vector<double> firsts, lasts, spans;
-  Summary summary;
+  std::vector<double> firsts, lasts, spans, sizes;
   for (const TimeSample& sample : samples) {
     firsts.push_back(sample.first);
     lasts.push_back(sample.last);
     spans.push_back(sample.last - sample.first);
-    summary.largest = std::max({summary.largest, std::abs(sample.first), std::abs(sample.last)});
+    sizes.push_back(std::max(std::abs(sample.first), std::abs(sample.last)));
   }
-  summary.first = Median(firsts);
-  summary.last = Median(lasts);
-  summary.span = Median(spans);
-  return summary;
+  return {Median(firsts), Median(lasts), Median(spans), Median(sizes)};
 }
 
 std::string Describe(const TimeEvidence& evidence, const Summary& summary) {
@@ -58,10 +59,10 @@ std::string Describe(const TimeEvidence& evidence, const Summary& summary) {
 }
 
 bool Float32LostTheTime(const TimeEvidence& evidence, const Summary& summary) {
-  if (evidence.type != ScalarType::kFloat32 || summary.largest == 0.0) return false;
-  const auto largest = static_cast<float>(summary.largest);
-  const double step = std::nextafter(largest, INFINITY) - largest;
-  return summary.span < 1000.0 * step && summary.largest > 1000.0 * summary.span;
+  if (evidence.type != ScalarType::kFloat32 || summary.size == 0.0) return false;
+  const auto size = static_cast<float>(summary.size);
+  const double step = std::nextafter(size, INFINITY) - size;
+  return summary.span < 1000.0 * step && summary.size > 1000.0 * summary.span;
 }
 
 /// The units are a factor of 1000 apart and the window is only 100 wide, so at most one fits.
@@ -81,17 +82,28 @@ TimeUnit DeduceUnit(const TimeEvidence& evidence, const Summary& summary) {
                    kMend);
 }
 
-/// True if zero lies within the sweep or close to one of its ends, in every scan.
+/// True if zero lies within the sweep or close to one of its ends.
 bool IsRelative(const std::vector<TimeSample>& samples, double span) {
-  return std::all_of(samples.begin(), samples.end(), [&](const TimeSample& sample) {
-    return sample.first >= -1.25 * span && sample.last <= 1.25 * span;
+  const auto broken = std::count_if(samples.begin(), samples.end(), [&](const TimeSample& sample) {
+    return sample.first < -1.25 * span || sample.last > 1.25 * span;
   });
+  return static_cast<std::size_t>(broken) <= BrokenAllowed(samples);
 }
 
 TimeOrigin RelativeOrigin(const Summary& summary) {
   if (summary.first >= -0.1 * summary.span) return TimeOrigin::kSweepStart;
   if (summary.last <= 0.1 * summary.span) return TimeOrigin::kSweepEnd;
   return TimeOrigin::kStamp;
+}
+
+/// From the smallest to the largest value, without so many that are farthest from the median.
+double RangeOfMost(std::vector<double> values, std::size_t left_out) {
+  const double middle = Median(values);
+  std::sort(values.begin(), values.end(),
+            [&](double a, double b) { return std::abs(a - middle) < std::abs(b - middle); });
+  values.resize(values.size() - std::min(left_out, values.size() - 1));
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most - *least;
 }
 
 /// Settles which clock absolute times belong to, by their distance from the stamps.
@@ -105,9 +117,11 @@ void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeCon
                      kMend);
   };
   std::vector<double> stamp_after_first_ns, stamp_after_last_ns;
+  std::size_t backward = 0;
   for (std::size_t k = 0; k < evidence.samples.size(); ++k) {
     const TimeSample& sample = evidence.samples[k];
-    if (k > 0 && sample.first <= evidence.samples[k - 1].first) {
+    const bool is_backward = k > 0 && sample.first <= evidence.samples[k - 1].first;
+    if (is_backward && ++backward > BrokenAllowed(evidence.samples)) {
       fail("scan " + std::to_string(k) + " begins at " + Number(sample.first) +
            ", not after the one before it");
     }
@@ -120,11 +134,10 @@ void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeCon
     found->evidence += "; the times are absolute and give the stamps";
     return;
   }
-  const auto [least, most] =
-      std::minmax_element(stamp_after_first_ns.begin(), stamp_after_first_ns.end());
   const double span_ns = summary.span * unit_ns;
-  if (*most - *least > std::max(span_ns, 0.5e9 * evidence.period_s)) {
-    fail("their distance from the stamps changes by " + Number((*most - *least) * 1e-9) + " s");
+  const double change_ns = RangeOfMost(stamp_after_first_ns, BrokenAllowed(evidence.samples));
+  if (change_ns > std::max(span_ns, 0.5e9 * evidence.period_s)) {
+    fail("their distance from the stamps changes by " + Number(change_ns * 1e-9) + " s");
   }
   const double after_first_ns = Median(stamp_after_first_ns);
   const double after_last_ns = Median(stamp_after_last_ns);
@@ -147,23 +160,76 @@ void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeCon
                      (stamp_is_last ? "last" : "first") + " point";
 }
 
+/// Sweeps that are cut short (a LiDAR that starts, a driver that waits) join their neighbours by
+/// one convention only: the next stamp comes as soon after a stamp at the start, the one before is
+/// as near to a stamp at the end.
+StampAt JudgeByCutSweeps(const TimeEvidence& evidence, const Summary& summary, double unit_s) {
+  constexpr double kSame = 0.03, kCut = 0.1;  // Of a sweep.
+  const std::vector<TimeSample>& samples = evidence.samples;
+  const auto step_matches = [&](std::size_t k, double sweep_s) {  // From stamp k to stamp k + 1.
+    if (k + 1 >= samples.size() || !samples[k].stamp_ns || !samples[k + 1].stamp_ns) return false;
+    const double step_s =
+        1e-9 * static_cast<double>(*samples[k + 1].stamp_ns - *samples[k].stamp_ns);
+    return std::abs(step_s - sweep_s) < kSame * summary.span * unit_s;
+  };
+  int starts = 0, ends = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double sweep_s = samples[k].last * unit_s;
+    if (std::abs(sweep_s - summary.last * unit_s) < kCut * summary.span * unit_s) continue;
+    const bool start = step_matches(k, sweep_s);
+    const bool end = k > 0 && step_matches(k - 1, sweep_s);
+    starts += start && !end ? 1 : 0;
+    ends += end && !start ? 1 : 0;
+  }
+  if ((starts > 0) == (ends > 0)) return StampAt::kAuto;
+  return starts > 0 ? StampAt::kStart : StampAt::kEnd;
+}
+
+void Doubt(const std::string& why, TimeConvention* found) {
+  found->doubt = "stamps are taken for the start of the sweep, but " + why +
+                 "; if they mark its end, all times are " +
+                 Number(1e-9 * static_cast<double>(found->sweep_ns)) +
+                 " s late: check input.stamp_at";
+}
+
 /// Which end of the sweep the stamps mark, by the time of recording: the last point was measured
 /// before, so a message recorded less than a sweep after its stamp has the stamp of its end.
-StampAt JudgeStamp(const TimeEvidence& evidence, TimeConvention* found) {
-  std::vector<double> delays_ns;
+StampAt JudgeByRecording(const TimeEvidence& evidence, TimeConvention* found) {
+  constexpr double kCopy_s = 20e-6;  // No recorder is so fast.
+  std::vector<double> delays_s;
   for (const TimeSample& sample : evidence.samples) {
     if (!sample.stamp_ns || !sample.recorded_ns) continue;
-    delays_ns.push_back(static_cast<double>(*sample.recorded_ns - *sample.stamp_ns));
+    delays_s.push_back(1e-9 * static_cast<double>(*sample.recorded_ns - *sample.stamp_ns));
   }
-  if (delays_ns.empty()) return StampAt::kStart;
-  const double delay_s = 1e-9 * Median(delays_ns);
+  if (delays_s.empty()) return StampAt::kAuto;
+  const double delay_s = Median(delays_s);
   const double sweep_s = 1e-9 * static_cast<double>(found->sweep_ns);
+  if (std::abs(delay_s) < kCopy_s) {
+    Doubt("the times of recording are copies of them, and nothing else tells", found);
+    return StampAt::kAuto;
+  }
   found->evidence += "; messages were recorded " + Number(delay_s) + " s after their stamp";
   if (delay_s < -0.1 * sweep_s || delay_s > 10.0 * sweep_s) {
-    found->evidence += ", so the clocks differ and the stamp is taken for the sweep's start";
-    return StampAt::kStart;
+    Doubt(
+        "the recorder's clock is another, " + Number(delay_s) + " s ahead, and nothing else tells",
+        found);
+    found->evidence += ", so the clocks differ";
+    return StampAt::kAuto;
   }
   return delay_s < 0.8 * sweep_s ? StampAt::kEnd : StampAt::kStart;
+}
+
+StampAt JudgeStamp(const TimeEvidence& evidence, const Summary& summary, TimeConvention* found) {
+  const double unit_s = 1e-9 * static_cast<double>(NanosecondsPer(found->unit));
+  const StampAt by_sweeps = JudgeByCutSweeps(evidence, summary, unit_s);
+  if (by_sweeps != StampAt::kAuto) {
+    found->evidence += "; so sweeps that are cut short join their neighbours";
+    return by_sweeps;
+  }
+  const StampAt by_recording = JudgeByRecording(evidence, found);
+  if (by_recording != StampAt::kAuto) return by_recording;
+  found->evidence += "; the stamp is assumed to mark the start (input.stamp_at)";
+  return StampAt::kStart;
 }
 
 std::string OriginText(const TimeConvention& found) {
@@ -191,7 +257,7 @@ std::int64_t TimeConvention::ZeroAfterStampNs() const {
 TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOptions& options) {
   TimeConvention found;
   if (evidence.samples.empty()) {
-    found.evidence = "no point times: no scan at the beginning has a point";
+    found.evidence = "no point times: no scan has a point";
     return found;
   }
   const Summary summary = Summarise(evidence.samples);
@@ -229,7 +295,9 @@ TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOpti
   if (found.stamp_at == StampAt::kAuto) {
     found.stamp_at = StampAt::kStart;
     if (found.origin == TimeOrigin::kSweepEnd) found.stamp_at = StampAt::kEnd;
-    if (found.origin == TimeOrigin::kSweepStart) found.stamp_at = JudgeStamp(evidence, &found);
+    if (found.origin == TimeOrigin::kSweepStart) {
+      found.stamp_at = JudgeStamp(evidence, summary, &found);
+    }
   }
   found.evidence += "; " + OriginText(found);
   return found;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -30,10 +31,13 @@ struct TimeOptions {
   StampAt stamp_at = StampAt::kAuto;
 };
 
-/// The range of the time field in one scan, in the file's own unit.
+/// The range of the time field in one scan, in the file's own unit, without points whose times are
+/// far from those of the others.
 struct TimeSample {
   double first = 0.0;
   double last = 0.0;
+  /// Points with a time and a position.
+  std::size_t points = 0;
   std::optional<std::int64_t> stamp_ns;
   /// When the message was recorded; a message is sent after its last point was measured.
   std::optional<std::int64_t> recorded_ns;
@@ -62,6 +66,8 @@ struct TimeConvention {
   std::int64_t clock_offset_ns = 0;
   /// Why: one or two sentences with numbers, to be printed.
   std::string evidence;
+  /// A sentence that names the option to set, where the decision may be wrong; or empty.
+  std::string doubt;
 
   bool HasPointTimes() const { return !field.empty(); }
   bool IsAbsolute() const { return origin == TimeOrigin::kAbsolute; }
@@ -78,7 +84,14 @@ const char* NameOf(TimeOrigin origin);
 
 /// Decides unit and origin: the unit is the one that makes a scan's span one sweep (compared with
 /// the period of the stamps, else with plausible sweeps), the origin follows from where zero and
-/// the stamps lie. Throws InputError with all the numbers when the evidence allows no decision.
+/// the stamps lie. One scan of several may be broken. Throws InputError with all the numbers when
+/// the evidence allows no decision.
+///
+/// Which end of a sweep the stamps mark shows where a sweep was cut short: the next stamp, or the
+/// one before, is as near. Else the time of recording tells, as a sweep is sent when it is
+/// complete, unless it is a copy of the stamp. Sweeps of one length join in either case, and give
+/// the same trajectory, a sweep earlier or later: without evidence the start is taken, with a
+/// doubt.
 TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOptions& options);
 
 }  // namespace trajlo

@@ -16,6 +16,7 @@ namespace trajlo {
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
     : options_(options),
       threads_(options.threads),
+      sequencer_(options.segmenter.max_lag_s, [this](const LidarScan& scan) { CutSegments(scan); }),
       segmenter_(options.segmenter),
       map_(options.map),
       threshold_(options.threshold),
@@ -23,7 +24,11 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
       solver_(make_solver(options.solver, &threads_)),
       loss_watch_(options.lost, options.threshold.max_m) {}
 
-void Odometry::AddScan(const LidarScan& scan) {
+void Odometry::AddScan(const LidarScan& scan) { sequencer_.Add(scan); }
+
+/// A scan whose times go on from those before.
+void Odometry::CutSegments(const LidarScan& scan) {
+  if (on_scan_) on_scan_(scan);
   Stopwatch watch;
   segmenter_.AddScan(scan);
   segment_ms_ += watch.Milliseconds();
@@ -31,12 +36,20 @@ void Odometry::AddScan(const LidarScan& scan) {
 }
 
 void Odometry::Finish() {
+  sequencer_.Finish();
   segmenter_.Finish();
   ProcessSegments();
   if (!started_) return;
   WindowStatistics unused;
   while (window_.size() > 0) Leave(&unused);
   SettleFront();
+}
+
+PointCounts Odometry::point_counts() const {
+  PointCounts counts = segmenter_.counts();
+  counts.wrong_time = sequencer_.report().points;
+  counts.received += counts.wrong_time;
+  return counts;
 }
 
 void Odometry::ProcessSegments() {

@@ -9,6 +9,7 @@
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
 #include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/sensing/scan_sequencer.h"
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/trajectory/trajectory.h"
 #include "core/odometry/window/window.h"
@@ -28,10 +29,14 @@ class Odometry {
   explicit Odometry(const OdometryOptions& options,
                     const WindowSolverFactory& make_solver = MakeWindowSolver);
 
-  /// Processes every window that this scan completes.
+  /// Takes a scan as it was recorded, whatever its stamp (see ScanSequencer), and processes every
+  /// window that it completes.
   void AddScan(const LidarScan& scan);
   /// Processes what is left and settles all control poses.
   void Finish();
+
+  /// Called with every scan that is used, in order, its times as they are understood.
+  void OnScan(std::function<void(const LidarScan&)> callback) { on_scan_ = std::move(callback); }
 
   /// Called after every window.
   void OnWindow(std::function<void(const WindowStatistics&)> callback) {
@@ -47,11 +52,14 @@ class Odometry {
   /// The control poses that have left the window (all of them after Finish).
   const Trajectory& trajectory() const { return trajectory_; }
   const MapPyramid& map() const { return map_; }
-  const PointCounts& point_counts() const { return segmenter_.counts(); }
+  PointCounts point_counts() const;
+  /// What became of scans with odd stamps.
+  const TimeReport& time_report() const { return sequencer_.report(); }
   /// When the estimator got lost, if it did (sticky).
   std::optional<std::int64_t> lost_at_ns() const { return lost_at_ns_; }
 
  private:
+  void CutSegments(const LidarScan& scan);
   void ProcessSegments();
   void Start(const SegmentCloud& cloud);
   void Step(SegmentCloud cloud);
@@ -66,6 +74,7 @@ class Odometry {
 
   const OdometryOptions options_;
   ThreadPool threads_;
+  ScanSequencer sequencer_;
   Segmenter segmenter_;
   MapPyramid map_;
   AdaptiveThreshold threshold_;
@@ -74,6 +83,7 @@ class Odometry {
   LossWatch loss_watch_;
   Window window_;
   Trajectory trajectory_;
+  std::function<void(const LidarScan&)> on_scan_;
   std::function<void(const WindowStatistics&)> on_window_;
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;

@@ -33,7 +33,14 @@ Json InputJson(const RunSummary& s) {
            {{"listed", s.read.scans_listed},
             {"read", s.read.scans_read},
             {"damaged", s.read.scans_damaged},
-            {"skipped", s.read.scans_skipped}}},
+            {"skipped", s.read.scans_skipped},
+            {"reordered", s.times.reordered},
+            {"retimed", s.times.retimed},
+            {"time_assumed", s.times.assumed},
+            {"stamp_fits_nowhere", s.times.misfits},
+            {"stamp_repeated", s.times.repeated},
+            {"clock_apart", s.times.apart}}},
+          {"clock_steps", s.times.clock_steps},
           {"points",
            {{"received", s.points.received},
             {"kept", s.points.Kept()},
@@ -41,6 +48,7 @@ Json InputJson(const RunSummary& s) {
             {"too_near", s.points.too_near},
             {"too_far", s.points.too_far},
             {"too_late", s.points.too_late},
+            {"wrong_time", s.points.wrong_time},
             {"without_time", s.read.points_without_time}}}};
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/io/scan_source.h"
 #include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/sensing/time_report.h"
 #include "core/report/window_totals.h"
 
 namespace trajlo {
@@ -31,6 +32,7 @@ struct RunSummary {
   std::vector<std::string> input_description;
   ReadReport read;
   PointCounts points;
+  TimeReport times;
 
   // What came out.
   WindowTotals windows;
@@ -48,6 +50,12 @@ struct RunSummary {
   double median_ms = 0.0;     ///< Estimation per second of data.
   double p95_ms = 0.0;
   double peak_memory_mb = 0.0;
+
+  /// The share of the points that were dropped because of their times.
+  double ShareWithWrongTimes() const;
+  /// What became of scans with odd stamps, and of how many: "3 put in order, 1 dropped (...)";
+  /// empty if there were none.
+  std::string OddStamps() const;
 
   double DataSeconds() const {
     return begin_ns && end_ns ? 1e-9 * static_cast<double>(*end_ns - *begin_ns) : 0.0;

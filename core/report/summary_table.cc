@@ -30,6 +30,7 @@ std::string Dropped(const RunSummary& s) {
   AddCount(s.points.too_near, "too near", &text);
   AddCount(s.points.too_far, "too far", &text);
   AddCount(s.points.too_late, "too late", &text);
+  AddCount(s.points.wrong_time, "at wrong times", &text);
   return text.empty() ? "nothing" : text + " of " + std::to_string(s.points.received) + " points";
 }
 
@@ -57,6 +58,8 @@ std::string SummaryTable(const RunSummary& s) {
                                 s.read.scans_listed, 1e-6 * static_cast<double>(s.points.received),
                                 s.DataSeconds()));
   table += Line("dropped", Dropped(s));
+  const std::string stamps = s.OddStamps();
+  if (!stamps.empty()) table += Line("scans", stamps);
   table += Line("trajectory", Format("%zu poses, %.2f m long, ends %.2f m from its start",
                                      s.poses_written, s.path_length_m, s.distance_to_start_m));
   table +=

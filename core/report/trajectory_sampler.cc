@@ -45,33 +45,47 @@ void TrajectorySampler::Advance(const Trajectory& trajectory, const Visit& visit
 }
 
 void TrajectorySampler::AdvanceControlPoses(const Trajectory& trajectory, const Visit& visit) {
-  for (; next_ < trajectory.poses().size(); ++next_, ++written_) {
-    visit(trajectory.poses()[next_].t_ns, trajectory.poses()[next_].T_world_body);
+  bool goes_on = true;
+  for (; goes_on && next_ < trajectory.poses().size(); ++next_, ++written_) {
+    goes_on = visit(trajectory.poses()[next_].t_ns, trajectory.poses()[next_].T_world_body);
   }
 }
 
+/// From the begin, not from the sample before: rounding must not add up.
+std::int64_t TrajectorySampler::SampleTime(const Trajectory& trajectory) const {
+  const double seconds = static_cast<double>(next_) / options_.rate_hz;
+  return trajectory.poses().front().t_ns + std::llround(1e9 * seconds);
+}
+
 void TrajectorySampler::AdvanceRate(const Trajectory& trajectory, const Visit& visit) {
-  const std::int64_t begin_ns = trajectory.poses().front().t_ns;
-  const std::int64_t end_ns = trajectory.poses().back().t_ns;
-  while (true) {
-    // From the begin, not from the sample before: rounding must not add up.
-    const double seconds = static_cast<double>(next_) / options_.rate_hz;
-    const std::int64_t t_ns = begin_ns + std::llround(1e9 * seconds);
-    if (t_ns > end_ns) return;
-    if (const auto T = trajectory.At(t_ns)) {
-      visit(t_ns, *T);
-      ++written_;
+  const std::vector<ControlPose>& poses = trajectory.poses();
+  const auto max_gap_ns = std::llround(1e9 * options_.max_gap_s);
+  for (bool goes_on = true; goes_on;) {
+    const std::int64_t t_ns = SampleTime(trajectory);
+    while (next_pose_ < poses.size() && poses[next_pose_].t_ns < t_ns) ++next_pose_;
+    if (next_pose_ == poses.size()) return;
+    const std::int64_t pose_ns = poses[next_pose_].t_ns;
+    const bool is_in_gap =
+        next_pose_ > 0 && pose_ns > t_ns && pose_ns - poses[next_pose_ - 1].t_ns > max_gap_ns;
+    if (is_in_gap) {
+      const double seconds = 1e-9 * static_cast<double>(pose_ns - poses.front().t_ns);
+      const auto behind = static_cast<std::size_t>(std::ceil(seconds * options_.rate_hz));
+      next_ = std::max(next_ + 1, behind);
+      continue;
     }
+    goes_on = visit(t_ns, *trajectory.At(t_ns));
+    ++written_;
     ++next_;
   }
 }
 
 void TrajectorySampler::AdvanceScans(const Trajectory& trajectory, const Visit& visit) {
-  while (!scan_times_.empty() && scan_times_.front() <= trajectory.poses().back().t_ns) {
+  bool goes_on = true;
+  while (goes_on && !scan_times_.empty() && scan_times_.front() <= trajectory.poses().back().t_ns) {
     const std::int64_t t_ns = scan_times_.front();
     scan_times_.pop_front();
     if (const auto T = trajectory.At(t_ns)) {
-      visit(t_ns, *T);
+      goes_on = visit(t_ns, *T);
       ++written_;
     } else {
       ++scans_without_pose_;

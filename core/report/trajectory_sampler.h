@@ -17,13 +17,16 @@ struct SamplingOptions {
   SampleAt at = SampleAt::kControlPoses;
   /// Only for kRate.
   double rate_hz = 0.0;
+  /// Control poses farther apart have a gap between them, for which kRate gives no poses.
+  double max_gap_s = 1.0;
 };
 
 /// Picks the poses to be written from a trajectory that grows. Scans of the first LiDAR are noted
 /// as they are read, and give their pose as soon as the trajectory covers them.
 class TrajectorySampler {
  public:
-  using Visit = std::function<void(std::int64_t t_ns, const SE3& T_world_body)>;
+  /// False ends the visits of this call.
+  using Visit = std::function<bool(std::int64_t t_ns, const SE3& T_world_body)>;
 
   explicit TrajectorySampler(const SamplingOptions& options) : options_(options) {}
 
@@ -40,11 +43,13 @@ class TrajectorySampler {
 
  private:
   void AdvanceControlPoses(const Trajectory& trajectory, const Visit& visit);
+  std::int64_t SampleTime(const Trajectory& trajectory) const;
   void AdvanceRate(const Trajectory& trajectory, const Visit& visit);
   void AdvanceScans(const Trajectory& trajectory, const Visit& visit);
 
   SamplingOptions options_;
   std::size_t next_ = 0;                 ///< Control pose, or sample of the rate.
+  std::size_t next_pose_ = 0;            ///< The control pose that follows the next sample.
   std::deque<std::int64_t> scan_times_;  ///< Not written yet, increasing.
   std::optional<std::int64_t> newest_scan_ns_;
   std::size_t written_ = 0;

@@ -97,10 +97,10 @@ def sentences(findings):
             *about_failures(findings, ranked)]
 
 
-def tunes_weights(options):
-    """Whether a run with these options sets the sigmas by itself."""
-    balance = (yaml.safe_load(options) or {}).get("weight_balance")
-    return isinstance(balance, dict) and balance.get("enabled") is True
+def tunes_itself(options):
+    """Whether a run with these options sets the densities of the motion prior by itself."""
+    prior = (yaml.safe_load(options) or {}).get("motion_prior")
+    return isinstance(prior, dict) and prior.get("self_tuning") is True
 
 
 def warnings(plan):
@@ -108,12 +108,13 @@ def warnings(plan):
     said = []
     varied = {key for factor in plan.suite.factors for key in
               [*factor.keys, *(key for options in factor.settings.values() for key in options)]}
-    sigmas = sorted(key for key in varied if key.startswith("weights.") and "sigma" in key)
-    asked = "weight_balance.enabled" in varied  # then it is what the experiment is about
-    if sigmas and not asked and any(map(tunes_weights, {run.options for run in plan.runs})):
-        said.append(f"{', '.join(sigmas)} varied while weight_balance.enabled was true: the runs "
-                    "set these weights by themselves, and what was varied is only where they "
-                    "began. Set weight_balance.enabled: false to compare weights.")
+    densities = sorted(key for key in varied
+                       if key in ("motion_prior.translation_m2_s3", "motion_prior.rotation_rad2_s3"))
+    asked = "motion_prior.self_tuning" in varied  # then it is what the experiment is about
+    if densities and not asked and any(map(tunes_itself, {run.options for run in plan.runs})):
+        said.append(f"{', '.join(densities)} varied while motion_prior.self_tuning was true: the "
+                    "runs set these by themselves, and what was varied is only where they began. "
+                    "Set motion_prior.self_tuning: false to compare densities.")
     return said
 
 

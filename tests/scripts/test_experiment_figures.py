@@ -180,11 +180,11 @@ class FiguresTest(PretendedTest):
             return types.SimpleNamespace(runs=[types.SimpleNamespace(options=options)],
                                          suite=types.SimpleNamespace(factors=factors))
 
-        tuned, fixed = "weight_balance: {enabled: true}", "weight_balance: {enabled: false}"
-        sigma = "weights.registration_sigma_m"
-        self.assertIn(f"{sigma} varied while", conclusion.warnings(plan_of(tuned, [sigma]))[0])
-        for options, varied in ((fixed, [sigma]), (tuned, ["weights.kernel"]),
-                                (tuned, [sigma, "weight_balance.enabled"]), ("", [sigma])):
+        tuned, fixed = "motion_prior: {self_tuning: true}", "motion_prior: {self_tuning: false}"
+        density = "motion_prior.translation_m2_s3"
+        self.assertIn(f"{density} varied while", conclusion.warnings(plan_of(tuned, [density]))[0])
+        for options, varied in ((fixed, [density]), (tuned, ["registration.kernel"]),
+                                (tuned, [density, "motion_prior.self_tuning"]), ("", [density])):
             self.assertEqual(conclusion.warnings(plan_of(options, varied)), [])
 
     def test_ticks_of_the_parallel_plot_never_lie_on_each_other(self):

@@ -33,6 +33,7 @@ void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings
         "points have no times of their own: right for motion-corrected scans only, others blur "
         "with every turn");
   }
+  if (!cloud.convention.doubt.empty()) findings->push_back(cloud.convention.doubt);
   if (cloud.stamp_is_recorded) {
     findings->push_back("the stamps are not filled: jitter of the recorder goes into the times");
   }

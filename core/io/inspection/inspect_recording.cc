@@ -9,7 +9,7 @@
 #include "core/io/inspection/folder_clouds.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
-#include "core/io/recording/time_probe.h"
+#include "core/io/recording/probe_times.h"
 #include "core/io/scan_folder.h"
 
 namespace trajlo {

@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "core/io/errors.h"
-#include "core/io/recording/time_probe.h"
+#include "core/io/recording/probe_times.h"
 #include "core/io/scan_decoder.h"
+#include "core/odometry/sensing/scan_times.h"
 
 namespace trajlo {
 namespace {
@@ -98,6 +99,10 @@ void CloudRecording::Probe(CloudMessageReader* reader, const RecordingOptions& o
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     streams_[i].stamp_is_recorded = !probes[i].HasStamps();
     streams_[i].convention = probes[i].Decide();
+    const std::string& doubt = streams_[i].convention.doubt;
+    if (doubt.empty()) continue;
+    const Topic& topic = reader_->topics()[streams_[i].topic];
+    report_.warnings.push_back(path_.string() + ": " + topic.name + ": " + doubt);
   }
 }
 
@@ -132,6 +137,7 @@ CloudRecording::Outcome CloudRecording::Decode(LidarScan reused) {
         DecodeScan(path_, message_.table, convention, stamp_ns, &outcome.scan);
     ShiftTimes(stream->clock_offset_ns, &outcome.scan);
     outcome.scan.lidar_id = stream->lidar_id;
+    outcome.scan.recorded_ns = message_.recorded_ns;
     outcome.readable = true;
   } catch (const std::exception& error) {
     outcome.damage = error.what();

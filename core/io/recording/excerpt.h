@@ -2,16 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "core/io/scan_source.h"
 
 namespace trajlo {
 
-/// The scans of a recording whose stamps lie in [first + start, first + start + duration), where
-/// `first` is the stamp of its first scan.
+/// The scans of a recording from `start` after its begin on, for `duration`. Time is that of the
+/// stamps; where one is more than a minute from that before it, by the same LiDAR, it does not
+/// count.
 class Excerpt : public ScanSource {
  public:
   /// A duration of 0 reads to the end.
@@ -27,7 +28,15 @@ class Excerpt : public ScanSource {
  private:
   std::unique_ptr<ScanSource> whole_;
   std::int64_t start_ns_, duration_ns_;
-  std::optional<std::int64_t> first_ns_;
+  std::int64_t ElapsedNs(const LidarScan& scan);
+
+  /// Of each LiDAR, its last stamp and when that was.
+  struct Clock {
+    std::int64_t stamp_ns;
+    std::int64_t elapsed_ns;
+  };
+  std::map<int, Clock> clocks_;
+  int beyond_ = 0;  ///< Scans in a row that lie behind the end.
 };
 
 }  // namespace trajlo

@@ -2,7 +2,6 @@
 #include "core/io/recording/open_clouds.h"
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "core/io/errors.h"
 #include "core/io/messages/ros_cloud_reader.h"
 #include "core/io/packets/packet_cloud_reader.h"
+#include "core/io/random_access_file.h"
 #include "core/io/recording/chained_clouds.h"
 #include "core/io/ros1/ros1_bag_reader.h"
 #include "core/io/ros2/rosbag2_reader.h"
@@ -35,13 +35,10 @@ std::vector<fs::path> Ros1Bags(const fs::path& folder) {
   return bags;
 }
 
-/// Enough for a packet of a Velodyne; all other kinds show themselves in a few bytes.
+/// Enough for a packet of a Velodyne; all other kinds show themselves in a few bytes. Throws
+/// InputError where the file cannot be opened.
 std::string FirstBytes(const fs::path& path) {
-  std::string bytes(1206, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return bytes;
+  return std::string(RandomAccessFile(path).Read(0, 1206).view());
 }
 
 bool BeginsWith(const std::string& bytes, std::string_view magic) {

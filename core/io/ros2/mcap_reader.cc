@@ -21,11 +21,17 @@ std::shared_ptr<const RandomAccessFile> OpenMcap(const std::filesystem::path& pa
   return file;
 }
 
+bool HasEndMark(const RandomAccessFile& file) {
+  const std::size_t size = kMcapMagic.size();
+  return file.size() >= 2 * size && file.Read(file.size() - size, size).view() == kMcapMagic;
+}
+
 }  // namespace
 
 McapReader::McapReader(const std::filesystem::path& path, std::filesystem::path shown)
     : shown_(shown.empty() ? path : std::move(shown)) {
   const auto file = OpenMcap(path, shown_);
+  has_end_mark_ = HasEndMark(*file);
   index_ = ReadMcapIndex(file, shown_);
   if (topics().empty()) {
     throw InputError(shown_,
@@ -80,6 +86,11 @@ void McapReader::Finish() {
     report_.warnings.push_back(shown_.string() + ": the file lists " + std::to_string(listed) +
                                " messages of the topics that are read, " + std::to_string(met) +
                                " were found");
+  }
+  if (!has_end_mark_ && !report_.damaged) {
+    report_.warnings.push_back(shown_.string() +
+                               ": the end of the file is cut off; all messages are there, only its "
+                               "index is not");
   }
   if (not_unpacked_ > 0) {
     report_.warnings.push_back(shown_.string() + ": " + std::to_string(not_unpacked_) +

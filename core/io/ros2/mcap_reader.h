@@ -37,6 +37,7 @@ class McapReader : public RawMessageReader {
   std::vector<bool> selected_;
   std::vector<std::uint64_t> met_;
   std::uint64_t not_unpacked_ = 0;
+  bool has_end_mark_ = false;
   bool finished_ = false;
   MessageReport report_;
 };

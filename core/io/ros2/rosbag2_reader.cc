@@ -4,20 +4,32 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/io/errors.h"
+#include "core/io/random_access_file.h"
 #include "core/io/ros2/db3_reader.h"
 #include "core/io/ros2/mcap_reader.h"
+#include "core/io/ros2/mcap_records.h"
 #include "core/io/ros2/rosbag2_metadata.h"
 #include "core/io/ros2/unpack.h"
 
 namespace trajlo {
 namespace {
 
+/// Told by the first bytes; by the name only of a file that begins like neither kind.
+bool IsMcap(const std::filesystem::path& path, const std::filesystem::path& name) {
+  constexpr std::string_view kSqliteMark = "SQLite format 3";
+  const FileBytes first = RandomAccessFile(path).Read(0, kSqliteMark.size());
+  if (first.view().substr(0, kMcapMagic.size()) == kMcapMagic) return true;
+  return first.view() != kSqliteMark && name.extension() == ".mcap";
+}
+
 std::unique_ptr<RawMessageReader> OpenPlain(const std::filesystem::path& path,
-                                            const std::filesystem::path& shown, bool is_mcap) {
-  if (is_mcap) return std::make_unique<McapReader>(path, shown);
+                                            const std::filesystem::path& shown,
+                                            const std::filesystem::path& name) {
+  if (IsMcap(path, name)) return std::make_unique<McapReader>(path, shown);
   return std::make_unique<Db3Reader>(path, shown);
 }
 
@@ -28,11 +40,11 @@ void Warn(const std::string& sentence, MessageReport* report) {
 
 std::unique_ptr<RawMessageReader> OpenFile(const std::filesystem::path& path,
                                            MessageReport* report) {
-  if (path.extension() != ".zstd") return OpenPlain(path, path, path.extension() == ".mcap");
+  if (path.extension() != ".zstd") return OpenPlain(path, path, path);
   std::string problem;
   // An open file stays readable when its name is gone.
   const TempFile unpacked = UnpackFile(path, &problem);
-  auto reader = OpenPlain(unpacked.path(), path, path.stem().extension() == ".mcap");
+  auto reader = OpenPlain(unpacked.path(), path, path.stem());
   if (!problem.empty()) {
     Warn(path.string() + ": unpacking ended too early: " + problem, report);
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace trajlo {
@@ -22,6 +23,8 @@ struct LidarScan {
   int lidar_id = 0;
   /// The scan's own stamp, as written beside or in the file.
   std::int64_t stamp_ns = 0;
+  /// When it was recorded, by the recorder's clock, where that is known.
+  std::optional<std::int64_t> recorded_ns = std::nullopt;
   /// False for motion-corrected scans: every `t_ns` then equals `stamp_ns`.
   bool has_point_times = true;
   std::vector<LidarPoint> points;

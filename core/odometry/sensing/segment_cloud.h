@@ -21,9 +21,12 @@ struct PointCounts {
   std::int64_t not_finite = 0;
   std::int64_t too_near = 0;  ///< Includes the (0, 0, 0) of a missing return.
   std::int64_t too_far = 0;
-  std::int64_t too_late = 0;  ///< Older than what was already processed, or a repeated scan.
+  std::int64_t too_late = 0;    ///< Older than what was already processed.
+  std::int64_t wrong_time = 0;  ///< Of scans whose stamps are wrong, or far from their own scan.
 
-  std::int64_t Kept() const { return received - not_finite - too_near - too_far - too_late; }
+  std::int64_t Kept() const {
+    return received - not_finite - too_near - too_far - too_late - wrong_time;
+  }
 };
 
 /// All that the LiDARs measured in [begin_ns, end_ns), merged in the body frame and thinned twice.

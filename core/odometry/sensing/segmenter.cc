@@ -13,7 +13,12 @@ namespace {
 constexpr std::int64_t kUnseen = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max();
 
+/// No segment is shorter: velocities are differences of poses over its duration.
+constexpr std::int64_t kShortest_ns = 1'000'000;
+
 std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
+
+std::int64_t DurationNs(double seconds) { return std::max(ToNs(seconds), kShortest_ns); }
 
 /// Keeps `count` points at even distances in the order of the list.
 void ThinEvenly(std::size_t count, std::vector<SegmentPoint>* points) {
@@ -26,21 +31,26 @@ void ThinEvenly(std::size_t count, std::vector<SegmentPoint>* points) {
 
 Segmenter::Segmenter(const SegmenterOptions& options, int divisions)
     : options_(options),
-      slot_ns_(ToNs(options.interval_s / divisions)),
+      slot_ns_(DurationNs(options.interval_s / divisions)),
+      max_gap_ns_(DurationNs(options.max_gap_s)),
+      max_lag_ns_(ToNs(options.max_lag_s)),
       map_filter_(options.map_voxel_m),
       registration_filter_(options.registration_voxel_m),
       complete_until_ns_(kUnseen),
-      newest_ns_(std::max<std::size_t>(options.T_body_lidar.size(), 1), kUnseen) {}
+      newest_ns_(std::max<std::size_t>(options.T_body_lidar.size(), 1), kUnseen),
+      discrete_step_ns_(slot_ns_) {}
 
 void Segmenter::AddScan(const LidarScan& scan) {
   counts_.received += static_cast<std::int64_t>(scan.points.size());
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);
   if (lidar >= newest_ns_.size()) newest_ns_.resize(lidar + 1, kUnseen);
-  if (scan.has_point_times) {
+  has_point_times_ = has_point_times_ || scan.has_point_times;
+  if (has_point_times_) {
     AddContinuous(scan);
   } else {
     AddDiscrete(scan);
   }
+  CompletePassed();
 }
 
 SE3 Segmenter::PoseOf(std::size_t lidar) const {
@@ -97,10 +107,9 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
 
   if (!end_ns_) {
     end_ns_ = first_ns;
-    OpenNext(first_ns + ToNs(options_.first_interval_s), true);
+    OpenNext(first_ns + DurationNs(options_.first_interval_s), true);
   }
-  const std::int64_t max_gap_ns = ToNs(options_.max_gap_s);
-  if (first_ns > *end_ns_ + max_gap_ns) {
+  if (first_ns > *end_ns_ + max_gap_ns_) {
     OpenNext(first_ns, true, true);
     CompleteUntil(first_ns);
   }
@@ -108,7 +117,7 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
   const std::int64_t first_open_ns = FirstOpen_ns();
   std::int64_t newest_ns = kUnseen;
   for (const LidarPoint& point : scan.points) {
-    if (point.t_ns < first_open_ns || point.t_ns > *end_ns_ + max_gap_ns) {
+    if (point.t_ns < first_open_ns || point.t_ns > *end_ns_ + max_gap_ns_) {
       ++counts_.too_late;
       continue;
     }
@@ -121,39 +130,66 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
     slot.points.push_back({p_body, static_cast<float>(alpha), static_cast<std::uint16_t>(lidar)});
   }
   newest_ns_[lidar] = std::max(newest_ns_[lidar], newest_ns);
+}
 
-  const std::int64_t leader = *std::max_element(newest_ns_.begin(), newest_ns_.end());
-  std::int64_t slowest = leader;
-  for (const std::int64_t newest : newest_ns_) {
-    if (newest == kUnseen || newest < leader - ToNs(options_.max_lag_s)) continue;
-    slowest = std::min(slowest, newest);
+/// The slot that the points of a scan without times belong to; null if it is too late for them.
+Segmenter::Slot* Segmenter::DiscreteSlotAt(std::int64_t stamp_ns) {
+  if (!end_ns_) {
+    end_ns_ = stamp_ns;
+    OpenNext(stamp_ns, true);
+  } else if (stamp_ns >= *end_ns_ + kShortest_ns) {
+    const std::int64_t step_ns = stamp_ns - *end_ns_;
+    if (step_ns > std::max(max_gap_ns_, 2 * kShortest_ns)) {
+      OpenNext(stamp_ns - std::min(discrete_step_ns_, step_ns / 2), true, true);
+    } else {
+      discrete_step_ns_ = step_ns;
+    }
+    OpenNext(stamp_ns, true);
   }
-  const bool all_seen =
-      std::find(newest_ns_.begin(), newest_ns_.end(), kUnseen) == newest_ns_.end();
-  // A LiDAR that has not spoken yet is waited for only so long.
-  if (!all_seen) slowest = std::min(slowest, leader - ToNs(options_.max_lag_s));
-  CompleteUntil(slowest);
+  for (std::size_t i = slots_.size(); i-- > 0;) {
+    Slot& slot = slots_[i];
+    if (slot.end_ns <= complete_until_ns_ || slot.is_gap) return nullptr;
+    if (std::abs(stamp_ns - slot.end_ns) < kShortest_ns) return &slot;
+    if (stamp_ns < slot.begin_ns + kShortest_ns) continue;
+    // Of another LiDAR, between two scans that came before.
+    const auto before = slots_.insert(slots_.begin() + static_cast<std::ptrdiff_t>(i),
+                                      {slot.begin_ns, stamp_ns, true, false, {}});
+    slots_[i + 1].begin_ns = stamp_ns;
+    return &*before;
+  }
+  return nullptr;
 }
 
 void Segmenter::AddDiscrete(const LidarScan& scan) {
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);
   const SE3 T_body_lidar = PoseOf(lidar);
-  if (end_ns_ && scan.stamp_ns <= *end_ns_) {
+  Slot* slot = DiscreteSlotAt(scan.stamp_ns);
+  if (slot == nullptr) {
     counts_.too_late += static_cast<std::int64_t>(scan.points.size());
     return;
   }
-  if (!end_ns_) end_ns_ = scan.stamp_ns;
-  if (scan.stamp_ns > *end_ns_ + ToNs(options_.max_gap_s)) {
-    OpenNext(scan.stamp_ns - 1, true, true);
-  }
-  OpenNext(scan.stamp_ns, true);
   for (const LidarPoint& point : scan.points) {
     Eigen::Vector3f p_body;
     if (!Accept(point, T_body_lidar, &p_body)) continue;
-    slots_.back().points.push_back({p_body, 1.0F, static_cast<std::uint16_t>(lidar)});
+    slot->points.push_back({p_body, 1.0F, static_cast<std::uint16_t>(lidar)});
   }
-  newest_ns_[lidar] = scan.stamp_ns;
-  CompleteUntil(scan.stamp_ns);
+  newest_ns_[lidar] = std::max(newest_ns_[lidar], slot->end_ns);
+}
+
+/// Completes what all LiDARs have passed, but waits only so long for one that has not spoken yet,
+/// and not at all for one that fell silent.
+void Segmenter::CompletePassed() {
+  const std::int64_t leader = *std::max_element(newest_ns_.begin(), newest_ns_.end());
+  if (leader == kUnseen) return;
+  std::int64_t slowest = leader;
+  bool all_seen = true;
+  for (const std::int64_t newest : newest_ns_) {
+    all_seen = all_seen && newest != kUnseen;
+    if (newest == kUnseen || newest < leader - max_lag_ns_) continue;
+    slowest = std::min(slowest, newest);
+  }
+  if (!all_seen) slowest = std::min(slowest, leader - max_lag_ns_);
+  CompleteUntil(slowest);
 }
 
 void Segmenter::CompleteUntil(std::int64_t t_ns) {

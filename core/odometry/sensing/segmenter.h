@@ -39,9 +39,13 @@ struct SegmenterOptions {
 /// Cuts the stream of scans into segments, whatever the length of a scan.
 ///
 /// Segment 0 starts at the first point and lasts `first_interval_s`; the others follow without
-/// holes. A segment is handed out when every LiDAR has passed its end. Scans without point times
-/// (motion-corrected ones) become one segment each, from the previous stamp to their own, with
-/// alpha = 1 for every point: the discrete mode of the paper.
+/// holes. A segment is handed out when every LiDAR has passed its end. Where no scan has point
+/// times (motion-corrected ones) each becomes a segment, from the previous stamp to its own, with
+/// alpha = 1 for every point: the discrete mode of the paper. The first of these is an instant,
+/// which only fills the map. After a gap, such a segment is as long as the one before it. Every
+/// other segment lasts a millisecond at least: scans that are closer share one.
+///
+/// Times must be sane, as ScanSequencer makes them.
 ///
 /// The stream is cut into slots of `interval_s / divisions`; how many of them make a segment is
 /// said when the segment is asked for, so that it can depend on all segments before it, and on
@@ -72,6 +76,8 @@ class Segmenter {
   SE3 PoseOf(std::size_t lidar) const;
   bool Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body);
   Slot& SlotAt(std::int64_t t_ns);
+  Slot* DiscreteSlotAt(std::int64_t stamp_ns);
+  void CompletePassed();
   void OpenNext(std::int64_t end_ns, bool is_whole, bool is_gap = false);
   void CompleteUntil(std::int64_t t_ns);
   std::int64_t FirstOpen_ns() const;
@@ -79,7 +85,7 @@ class Segmenter {
   void Thin(std::vector<SegmentPoint> points, SegmentCloud* cloud);
 
   SegmenterOptions options_;
-  std::int64_t slot_ns_;
+  std::int64_t slot_ns_, max_gap_ns_, max_lag_ns_;
   PointCounts counts_;
   VoxelFilter map_filter_;
   VoxelFilter registration_filter_;
@@ -88,6 +94,8 @@ class Segmenter {
   std::int64_t complete_until_ns_;
   std::vector<std::int64_t> newest_ns_;  ///< Newest time of each LiDAR.
   std::optional<std::int64_t> end_ns_;   ///< End of the newest slot.
+  bool has_point_times_ = false;         ///< Of any scan so far.
+  std::int64_t discrete_step_ns_;        ///< From scan to scan, without point times.
 };
 
 }  // namespace trajlo

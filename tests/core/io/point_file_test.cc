@@ -158,6 +158,25 @@ TEST(PointFile, AnEmptyScanIsNotDamaged) {
   EXPECT_EQ(ReadPointFile(folder.Write("a.bin", "")).count, 0U);
 }
 
+TEST(PointFile, ABinWithFiveNumbersAPointIsToldByItsRings) {
+  const TempFolder folder;
+  std::string bytes;
+  for (int i = 0; i < 320; ++i) {
+    const float row[] = {0.25F * static_cast<float>(i) + 0.1F, -3.3F, 1.7F,
+                         static_cast<float>(i % 90), static_cast<float>(i % 32)};
+    bytes.append(reinterpret_cast<const char*>(row), sizeof(row));
+  }
+  const PointTable table = ReadPointFile(folder.Write("n015__LIDAR_TOP.pcd.bin", bytes));
+  EXPECT_EQ(table.FieldNames(), "x y z intensity ring");
+  EXPECT_EQ(table.count, 320U);
+  EXPECT_EQ(table.damage, "");
+  EXPECT_NEAR(Values(table, "x")[319], 79.85, 1e-4);
+  EXPECT_EQ(Values(table, "ring")[33], 1.0);
+  // The same numbers, but no rings: five is not certain, and four leave no rest here.
+  for (int i = 0; i < 320; ++i) bytes[static_cast<std::size_t>(20 * i + 16)] = '\x11';
+  EXPECT_EQ(ReadPointFile(folder.Write("b.bin", bytes)).FieldNames(), "x y z intensity");
+}
+
 TEST(PointFile, BinaryDataThatIsNoScanIsRefusedAsKittiBin) {
   const TempFolder folder;
   std::string packets;

@@ -137,7 +137,7 @@ TEST(ScanFolder, ANamedTimeFieldThatIsMissingIsAnErrorThatListsTheFields) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("'curvature' is sought, but the file has: x y z intensity time"));
+                HasSubstr("'curvature' is sought, but the points have: x y z intensity time"));
   }
 }
 
@@ -228,6 +228,38 @@ TEST(ScanFolder, SaysNoAgainAndAgainAtTheEnd) {
   LidarScan scan;
   EXPECT_FALSE(recording.Next(&scan));
   EXPECT_FALSE(recording.Next(&scan));
+}
+
+TEST(ScanFolder, ALinkToAScanThatIsNotThereIsAScanThatCannotBeRead) {
+  const TempFolder folder;
+  WriteRecording(folder, "pypcd4_binary.pcd", true);
+  std::filesystem::remove(folder.path() / "scans/000002.pcd");
+  std::filesystem::create_symlink("/nowhere/000002.pcd", folder.path() / "scans/000002.pcd");
+  ScanFolder recording(folder.path());
+  EXPECT_EQ(recording.size(), 5U);
+  const auto scans = ReadAll(&recording);
+  ASSERT_EQ(scans.size(), 4U);
+  EXPECT_EQ(scans[2].stamp_ns, 1600000000300000000) << "the stamps stay with their scans";
+  EXPECT_EQ(recording.report().scans_skipped, 1U);
+  EXPECT_THAT(recording.report().warnings.at(0), HasSubstr("000002.pcd"));
+}
+
+TEST(ScanFolder, LeadingScansWithoutPointsDoNotSwitchTheTimesOff) {
+  const TempFolder folder;
+  WriteRecording(folder, "pypcd4_binary.pcd", false);
+  const std::string whole = testing::ReadFile(Fixture("pypcd4_binary.pcd"));
+  std::string times;
+  for (int k = 0; k < 12; ++k) {
+    const std::string name =
+        "scans/0000" + std::string(k < 10 ? "0" : "") + std::to_string(k) + ".pcd";
+    folder.Write(name,
+                 k < 6 ? AsciiPcd("x y z intensity time", "4 4 4 4 4", "F F F F F", {}) : whole);
+    times += std::to_string(1600000000 + k) + ".0\n";
+  }
+  folder.Write("timestamps.txt", times);
+  ScanFolder recording(folder.path());
+  EXPECT_EQ(recording.time_convention().field, "time");
+  EXPECT_TRUE(ReadAll(&recording).at(8).has_point_times);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kEpoch = 1.6e9;  // s
 
@@ -124,6 +125,112 @@ TEST(TimeConvention, APartialFirstScanDoesNotMislead) {
   EXPECT_EQ(DeduceTimeConvention(evidence, {}).unit, TimeUnit::kNanoseconds);
 }
 
+TEST(TimeConvention, OneBrokenScanOfSeveralDoesNotMislead) {
+  for (const double broken : {1e12, -77.0, 3.4e38, 0.3, -1e30}) {
+    for (std::size_t k = 0; k < 5; ++k) {
+      for (const bool is_first : {true, false}) {
+        TimeEvidence relative = FiveScans(1, 0, 0.0999, 0, true, ScalarType::kFloat32);
+        (is_first ? relative.samples[k].first : relative.samples[k].last) = broken;
+        const auto found = DeduceTimeConvention(relative, {});
+        EXPECT_EQ(found.unit, TimeUnit::kSeconds) << broken;
+        EXPECT_EQ(found.origin, TimeOrigin::kSweepStart) << broken;
+        EXPECT_EQ(found.sweep_ns, 100'000'000) << broken;
+        TimeEvidence absolute = FiveScans(1, kEpoch, kEpoch + 0.0999, 0.1, true);
+        (is_first ? absolute.samples[k].first : absolute.samples[k].last) = broken;
+        EXPECT_TRUE(DeduceTimeConvention(absolute, {}).IsAbsolute()) << broken;
+      }
+    }
+  }
+}
+
+TEST(TimeConvention, OneWrongStampDoesNotHideTheClock) {
+  for (std::size_t k = 0; k < 5; ++k) {
+    for (const std::int64_t wrong_ns : {432'000'000'000'000, -432'000'000'000'000}) {
+      TimeEvidence evidence = FiveScans(1, 7.0, 7.0999, 0.1, true);
+      *evidence.samples[k].stamp_ns += wrong_ns;
+      const auto found = DeduceTimeConvention(evidence, {});
+      EXPECT_TRUE(found.IsAbsolute());
+      EXPECT_NEAR(static_cast<double>(found.clock_offset_ns), 1e9 * (kEpoch - 7.0), 1e3);
+    }
+  }
+}
+
+/// Scans at 10 Hz whose sweep `cut` is only 40 ms long, recorded `delay_s` after their stamps.
+TimeEvidence WithACutSweep(std::size_t cut, bool at_end, std::optional<double> delay_s) {
+  TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
+  std::int64_t begin_ns = std::llround(1e9 * kEpoch);
+  for (std::size_t k = 0; k < 5; ++k) {
+    TimeSample& sample = evidence.samples[k];
+    const std::int64_t length_ns = k == cut ? 40'000'000 : 100'000'000;
+    if (k == cut) sample.last = 0.0399;
+    sample.stamp_ns = begin_ns + (at_end ? length_ns : 0);
+    if (delay_s) sample.recorded_ns = *sample.stamp_ns + std::llround(1e9 * *delay_s);
+    begin_ns += length_ns;
+  }
+  return evidence;
+}
+
+TEST(TimeConvention, ASweepThatIsCutShortTellsWhichEndStampsMark) {
+  // Whatever the times of recording pretend.
+  for (const std::optional<double> delay_s : {std::optional<double>(), {0.0}, {0.05}, {0.15}}) {
+    for (std::size_t cut = 1; cut < 4; ++cut) {
+      for (const bool at_end : {false, true}) {
+        const auto found = DeduceTimeConvention(WithACutSweep(cut, at_end, delay_s), {});
+        EXPECT_EQ(found.stamp_at, at_end ? StampAt::kEnd : StampAt::kStart) << cut;
+        EXPECT_EQ(found.doubt, "");
+        EXPECT_THAT(found.evidence, HasSubstr("cut short"));
+      }
+    }
+  }
+}
+
+TEST(TimeConvention, AScanThatMissesItsLastPointsIsNoSweepThatIsCutShort) {
+  for (std::size_t k = 0; k < 5; ++k) {
+    TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
+    evidence.samples[k].last = 0.06;
+    const auto found = DeduceTimeConvention(evidence, {});
+    EXPECT_THAT(found.evidence, AllOf(HasSubstr("assumed"), Not(HasSubstr("cut short"))));
+  }
+}
+
+TEST(TimeConvention, TimesOfRecordingThatCopyTheStampsProveNothing) {
+  for (const std::int64_t rounding_ns : {0, 240, -240}) {
+    TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
+    for (TimeSample& sample : evidence.samples) {
+      sample.recorded_ns = *sample.stamp_ns + rounding_ns;
+    }
+    const auto found = DeduceTimeConvention(evidence, {});
+    EXPECT_EQ(found.stamp_at, StampAt::kStart);
+    EXPECT_THAT(found.doubt,
+                AllOf(HasSubstr("copies"), HasSubstr("0.1 s late"), HasSubstr("input.stamp_at")));
+    TimeOptions told;
+    told.stamp_at = StampAt::kEnd;
+    EXPECT_EQ(DeduceTimeConvention(evidence, told).doubt, "");
+  }
+}
+
+TEST(TimeConvention, ARecorderWithAnotherClockLeavesADoubt) {
+  for (const std::int64_t delay_ns : {-3'000'000'000, 86'400'000'000'000}) {
+    TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
+    for (TimeSample& sample : evidence.samples) sample.recorded_ns = *sample.stamp_ns + delay_ns;
+    const auto found = DeduceTimeConvention(evidence, {});
+    EXPECT_EQ(found.stamp_at, StampAt::kStart);
+    EXPECT_THAT(found.doubt, HasSubstr("input.stamp_at"));
+  }
+}
+
+TEST(TimeConvention, ADelayThatIsRealLeavesNoDoubt) {
+  for (const double delay_s : {0.0002, 0.002, 0.03, 0.1, 0.13}) {
+    TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
+    for (TimeSample& sample : evidence.samples) {
+      sample.recorded_ns = *sample.stamp_ns + std::llround(1e9 * delay_s);
+    }
+    const auto found = DeduceTimeConvention(evidence, {});
+    EXPECT_EQ(found.stamp_at, delay_s < 0.08 ? StampAt::kEnd : StampAt::kStart);
+    EXPECT_EQ(found.doubt, "");
+  }
+}
+
 TEST(TimeConvention, ASpanThatIsASweepInNoUnitIsAnErrorThatShowsTheEvidence) {
   try {
     DeduceTimeConvention(FiveScans(1, 0, 2, 0, true), {});
@@ -213,6 +320,33 @@ TEST(ScanDecoder, PointsWithoutAReturnAreNoEvidence) {
   ASSERT_TRUE(sample.has_value());
   EXPECT_EQ(sample->first, 0.01);
   EXPECT_EQ(sample->last, 0.05);
+}
+
+TEST(ScanDecoder, AFewWrongTimesAreNoEvidence) {
+  std::vector<std::array<double, 4>> rows;
+  for (int i = 0; i < 100; ++i) rows.push_back({1, 2, 3, 0.001 * i});
+  for (const double wrong : {1e12, -77.0, 3.4e38}) {
+    rows[50][3] = wrong;
+    const PointTable table = TableOf(rows);
+    const auto sample = SampleTimes(table, *table.Find("t"));
+    ASSERT_TRUE(sample.has_value());
+    EXPECT_EQ(sample->first, 0.0);
+    EXPECT_EQ(sample->last, 0.099);
+    EXPECT_EQ(sample->points, 100U);
+  }
+}
+
+TEST(ScanDecoder, AbsoluteTimesDoNotNeedARightStamp) {
+  TimeConvention convention;
+  convention.field = "t";
+  convention.origin = TimeOrigin::kAbsolute;
+  convention.sweep_ns = 100'000'000;
+  LidarScan scan;
+  const auto table = TableOf({{1, 2, 3, 1.6e9}, {1, 2, 3, 5.0}, {1, 2, 3, 1.6e9 + 0.0625}});
+  EXPECT_EQ(DecodeScan("a.pcd", table, convention, 86'400'000'000'000, &scan), 1U);
+  EXPECT_EQ(scan.points[0].t_ns, 1'600'000'000'000'000'000);
+  EXPECT_EQ(scan.points[2].t_ns, 1'600'000'000'062'500'000);
+  EXPECT_TRUE(std::isnan(scan.points[1].xyz_m.x()));
 }
 
 TEST(ScanDecoder, APointWithAnImpossibleTimeIsDisarmedAndCounted) {

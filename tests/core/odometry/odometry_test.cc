@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/odometry/sensing/scan_times.h"
 #include "tests/support/synthetic_world.h"
 
 namespace trajlo {
@@ -207,21 +208,65 @@ TEST(Odometry, AGapInTheStreamIsBridgedBySmoothness) {
   EXPECT_LT(LargestError(world, odometry.trajectory(), 2.35), 0.1);
 }
 
-TEST(Odometry, AJumpOfDaysIsOneGapAndTheRunGoesOn) {
+constexpr std::int64_t kDays_ns = 5LL * 24 * 3600 * 1'000'000'000;
+
+TEST(Odometry, APauseIsOneGapAndTheRunGoesOn) {
   SyntheticWorld world;
-  const std::int64_t days_ns = 5LL * 24 * 3600 * 1'000'000'000;
   const RunResult run = RunOn(world, RoomOptions(), 16, [&](int i, LidarScan* scan) {
-    if (i < 8) return;
-    scan->stamp_ns += days_ns;
-    for (LidarPoint& point : scan->points) point.t_ns += days_ns;
+    if (i >= 8) ShiftTimes(20'000'000'000, scan);
   });
   ExpectFinite(run.odometry->trajectory());
   EXPECT_LT(run.windows.size(), 60u);
+  EXPECT_GT(run.windows.size(), 40u);
   bool flagged = false;
   for (const ControlPose& pose : run.odometry->trajectory().poses()) {
     flagged = flagged || (pose.flags & kFlagGap);
   }
   EXPECT_TRUE(flagged);
+}
+
+TEST(Odometry, WrongStampsNeitherEndTheRunNorMoveIt) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  const std::vector<std::function<void(int, LidarScan*)>> faults = {
+      [](int i, LidarScan* scan) { ShiftTimes(i == 0 ? kDays_ns : 0, scan); },
+      [](int i, LidarScan* scan) { ShiftTimes(i == 8 ? kDays_ns : 0, scan); },
+      [](int i, LidarScan* scan) { ShiftTimes(i == 8 ? 2'000'000'000 : 0, scan); },
+      [](int i, LidarScan* scan) { ShiftTimes(i >= 8 ? -3'600'000'000'000 : 0, scan); },
+      [](int i, LidarScan* scan) { ShiftTimes(i >= 8 ? kDays_ns : 0, scan); },
+      [](int i, LidarScan* scan) { ShiftTimes(i == 8 ? -100'000'000 : 0, scan); },
+      [](int, LidarScan* scan) { scan->points[100].t_ns += 1'500'000'000; },
+  };
+  for (std::size_t k = 0; k < faults.size(); ++k) {
+    const RunResult run = RunOn(world, RoomOptions(), 20, faults[k]);
+    const auto& poses = run.odometry->trajectory().poses();
+    ASSERT_GT(poses.size(), 55u) << k;
+    EXPECT_GT(poses.back().t_ns, world.start_ns + 1'950'000'000) << k;
+    EXPECT_LT(poses.back().t_ns, world.start_ns + 2'050'000'000) << k;
+    EXPECT_LT(LargestError(world, run.odometry->trajectory(), 1.95), 0.03) << k;
+    for (const ControlPose& pose : poses) EXPECT_FALSE(pose.flags & kFlagGap) << k;
+    EXPECT_LT(run.odometry->point_counts().too_late, 100) << k;
+  }
+}
+
+TEST(Odometry, MotionCorrectedScansWithAPauseStayFinite) {
+  SyntheticWorld world;
+  OdometryOptions options = RoomOptions();
+  options.window.segments = 3;
+  for (const double pause_s : {0.8, 1.2, 3.0}) {
+    const RunResult run = RunOn(world, options, 20, [&](int i, LidarScan* scan) {
+      scan->has_point_times = false;
+      for (LidarPoint& point : scan->points) point.t_ns = scan->stamp_ns;
+      if (i >= 10) ShiftTimes(std::llround(1e9 * pause_s), scan);
+    });
+    const auto& poses = run.odometry->trajectory().poses();
+    ExpectFinite(run.odometry->trajectory());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      EXPECT_LT(poses[i].T_world_body.t.norm(), 0.05) << "the sensor stands still";
+      const std::int64_t before_ns = i > 0 ? poses[i - 1].t_ns : 0;
+      EXPECT_GE(poses[i].t_ns - before_ns, 1'000'000);
+    }
+  }
 }
 
 TEST(Odometry, ScansOfNaNsEmptyScansAndRepeatedScansDoNotStopIt) {
@@ -239,7 +284,8 @@ TEST(Odometry, ScansOfNaNsEmptyScansAndRepeatedScansDoNotStopIt) {
   });
   ExpectFinite(run.odometry->trajectory());
   EXPECT_EQ(run.odometry->point_counts().not_finite, 32 * 360);
-  EXPECT_EQ(run.odometry->point_counts().too_late, 32 * 360);
+  EXPECT_EQ(run.odometry->point_counts().wrong_time, 32 * 360);
+  EXPECT_EQ(run.odometry->time_report().repeated, 1);
   EXPECT_LT(LargestError(world, run.odometry->trajectory(), 1.95), 0.1);
 }
 

@@ -40,10 +40,12 @@ class TrajectorySamplerTest : public ::testing::Test {
     return [this](std::int64_t t_ns, const SE3& T) {
       times_ms_.push_back(t_ns / kMs);
       EXPECT_NEAR(T.t.x(), 1e-9 * static_cast<double>(t_ns) - 1.0, 1.1e-3);
+      return times_ms_.size() < most_;
     };
   }
   Trajectory trajectory_;
   std::vector<std::int64_t> times_ms_;
+  std::size_t most_ = 1'000'000;  ///< Then the visitor has had enough.
 };
 
 TEST_F(TrajectorySamplerTest, ControlPosesAreWrittenOnceAsTheyCome) {
@@ -76,8 +78,56 @@ TEST_F(TrajectorySamplerTest, RateDoesNotDrift) {
   Grow(&trajectory_, 1001);  // 30 s
   std::int64_t last = 0;
   TrajectorySampler sampler({SampleAt::kRate, 3.0});
-  sampler.Finish(trajectory_, [&](std::int64_t t_ns, const SE3&) { last = t_ns; });
+  sampler.Finish(trajectory_, [&](std::int64_t t_ns, const SE3&) {
+    last = t_ns;
+    return true;
+  });
   EXPECT_EQ(last, 31'000 * kMs);
+}
+
+/// A pose `later` than the last one.
+void Jump(Trajectory* trajectory, std::int64_t later_ns) {
+  ControlPose pose = trajectory->poses().back();
+  pose.t_ns += later_ns;
+  pose.T_world_body.t.x() += 1e-9 * static_cast<double>(later_ns);
+  trajectory->Append(pose);
+}
+
+TEST_F(TrajectorySamplerTest, RateGivesNoPosesInAGap) {
+  for (const bool step_by_step : {true, false}) {
+    TrajectorySampler sampler({SampleAt::kRate, 50.0, 1.0});
+    trajectory_ = {};
+    times_ms_.clear();
+    Grow(&trajectory_, 3);  // Until 1.060 s.
+    if (step_by_step) sampler.Advance(trajectory_, Collect());
+    Jump(&trajectory_, 1'000 * kMs);  // Not longer than a gap.
+    if (step_by_step) sampler.Advance(trajectory_, Collect());
+    EXPECT_EQ(sampler.written(), step_by_step ? 54u : 0u);
+    const std::int64_t years_ns = 50LL * 365 * 24 * 3600 * 1'000'000'000;
+    Jump(&trajectory_, years_ns + 5 * kMs);
+    Jump(&trajectory_, 40 * kMs);
+    sampler.Finish(trajectory_, Collect());
+    ASSERT_EQ(times_ms_.size(), 56u);
+    EXPECT_EQ(times_ms_[53], 2060);
+    EXPECT_EQ(times_ms_[54] - years_ns / kMs, 2080);
+    EXPECT_EQ(times_ms_[55] - years_ns / kMs, 2100);
+  }
+}
+
+TEST_F(TrajectorySamplerTest, AVisitorThatHasHadEnoughIsGivenTheRestLater) {
+  for (const SampleAt at : {SampleAt::kRate, SampleAt::kControlPoses}) {
+    TrajectorySampler sampler({at, 1.0 / 0.03, 1.0});
+    trajectory_ = {};
+    times_ms_.clear();
+    Grow(&trajectory_, 5);
+    most_ = 2;
+    sampler.Advance(trajectory_, Collect());
+    EXPECT_THAT(times_ms_, ElementsAre(1000, 1030));
+    most_ = 100;
+    sampler.Finish(trajectory_, Collect());
+    EXPECT_THAT(times_ms_, ElementsAre(1000, 1030, 1060, 1090, 1120));
+    EXPECT_EQ(sampler.written(), 5u);
+  }
 }
 
 TEST_F(TrajectorySamplerTest, OnePosePerScanOfTheFirstLidar) {

@@ -11,8 +11,10 @@
 namespace trajlo {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using trajlo::testing::FakeClouds;
 using trajlo::testing::FakeMessage;
 using trajlo::testing::kMs;
@@ -72,6 +74,33 @@ TEST(CloudRecording, StampsOfTheSweepsEndAreSeenByTheTimeOfRecording) {
   const auto other_clock = Open(FakeClouds({"/cloud"}, RegularMessages(6, 1'000'000 * kMs)));
   EXPECT_EQ(other_clock->time_convention(0).stamp_at, StampAt::kStart);
   EXPECT_THAT(other_clock->description(), HasSubstr("the clocks differ"));
+}
+
+TEST(CloudRecording, ADelayOfZeroIsNoProofAndSaysSo) {
+  const auto copied = Open(FakeClouds({"/cloud"}, RegularMessages(6, 0)));
+  EXPECT_EQ(copied->time_convention(0).stamp_at, StampAt::kStart);
+  ASSERT_EQ(copied->report().warnings.size(), 1u);
+  EXPECT_THAT(copied->report().warnings[0],
+              AllOf(HasSubstr("fake.bag: /cloud"), HasSubstr("input.stamp_at")));
+  RecordingOptions options;
+  options.stamp_at.values = {StampAt::kEnd};
+  EXPECT_THAT(Open(FakeClouds({"/cloud"}, RegularMessages(6, 0)), options)->report().warnings,
+              IsEmpty());
+  EXPECT_THAT(Open(FakeClouds({"/cloud"}, RegularMessages(6, 2 * kMs)))->report().warnings,
+              IsEmpty());
+}
+
+TEST(CloudRecording, LeadingMessagesWithoutPointsDoNotSwitchTheTimesOff) {
+  auto messages = RegularMessages(20, 101 * kMs);
+  for (std::size_t i = 0; i < 7; ++i) messages[i].is_empty = true;
+  const auto recording = Open(FakeClouds({"/cloud"}, messages));
+  EXPECT_EQ(recording->time_convention(0).field, "t");
+  EXPECT_TRUE(ReadAll(recording.get()).at(10).has_point_times);
+}
+
+TEST(CloudRecording, TellsWhenScansWereRecorded) {
+  const auto recording = Open(FakeClouds({"/cloud"}, RegularMessages(6, 101 * kMs)));
+  EXPECT_EQ(ReadAll(recording.get()).at(2).recorded_ns, kStart + 301 * kMs);
 }
 
 TEST(CloudRecording, WhatTheUserSaysAboutStampsWinsOverTheEvidence) {
@@ -160,6 +189,34 @@ TEST(Excerpt, KeepsTheScansWithinItsTime) {
   for (const LidarScan& scan : ReadAll(&excerpt))
     stamps_ms.push_back((scan.stamp_ns - kStart) / kMs);
   EXPECT_THAT(stamps_ms, ElementsAre(500, 600, 700));
+}
+
+TEST(Excerpt, IsWhereItIsInSpiteOfWrongStamps) {
+  constexpr std::int64_t kDay = 86'400'000 * kMs;
+  for (const std::int64_t wrong_ns : {5 * kDay, -5 * kDay, 2'000 * kMs}) {
+    for (const std::size_t at : {0, 3, 6, 9}) {
+      if (at == 0 && wrong_ns < kDay && wrong_ns > -kDay)
+        continue;  // Then all times count from it.
+      auto messages = RegularMessages(30, 101 * kMs);
+      messages[at].stamp_ns += wrong_ns;
+      Excerpt excerpt(Open(FakeClouds({"/cloud"}, messages)), 500 * kMs, 300 * kMs);
+      std::vector<std::int64_t> recorded_ms;
+      for (const LidarScan& scan : ReadAll(&excerpt)) {
+        recorded_ms.push_back((*scan.recorded_ns - kStart) / kMs - 101);
+      }
+      // The step to a wrong stamp and back does not count, or counts twice: one scan more or less.
+      ASSERT_GE(recorded_ms.size(), 2u) << wrong_ns << " at " << at;
+      EXPECT_LE(std::abs(recorded_ms.front() - 500), 200) << wrong_ns << " at " << at;
+      EXPECT_LE(std::abs(recorded_ms.back() - 700), 200) << wrong_ns << " at " << at;
+    }
+  }
+}
+
+TEST(Excerpt, IsThatOfTheStampsAcrossALongPauseBelowAMinute) {
+  auto messages = RegularMessages(30, 101 * kMs);
+  for (std::size_t i = 10; i < 30; ++i) messages[i].stamp_ns += 30'000 * kMs;
+  Excerpt excerpt(Open(FakeClouds({"/cloud"}, messages)), 31'000 * kMs, 200 * kMs);
+  EXPECT_EQ(ReadAll(&excerpt).size(), 2u);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct FakeMessage {
   std::int64_t recorded_ns;
   /// Name of the first coordinate; something else makes the message unreadable.
   std::string x = "x";
+  bool is_empty = false;
 };
 
 inline PointTable TenPoints(const std::string& x) {
@@ -69,6 +70,7 @@ class FakeClouds : public CloudMessageReader {
       message->stamp_ns = fake.stamp_ns;
       message->recorded_ns = fake.recorded_ns;
       message->table = TenPoints(fake.x);
+      if (fake.is_empty) message->table.count = 0;
       ++next_;
       return true;
     }

@@ -2,6 +2,7 @@
 #include "core/io/recording/open_recording.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "core/io/errors.h"
 #include "core/io/recording/open_clouds.h"
@@ -164,6 +165,42 @@ TEST(OpenRecording, AFolderOfPayloadsIsNotTakenForScans) {
   trajlo::testing::WriteFile(temp / "payloads.bin", payloads);
   EXPECT_THAT(ErrorOf(temp.path()),
               AllOf(HasSubstr("packets of a Velodyne"), HasSubstr("Give the file itself")));
+}
+
+/// What a user who is not root is told about a file or folder without any rights.
+std::string ErrorWithoutRights(const TempFolder& temp, const std::string& name) {
+  namespace fs = std::filesystem;
+  fs::permissions(temp.path(), fs::perms::owner_all | fs::perms::others_exec);
+  fs::permissions(temp / name, fs::perms::none);
+  const bool is_root = geteuid() == 0;
+  constexpr uid_t kNobody = 65534;
+  EXPECT_EQ(is_root ? seteuid(kNobody) : 0, 0);
+  const std::string error = ErrorOf(temp / name);
+  EXPECT_EQ(is_root ? seteuid(0) : 0, 0);
+  fs::permissions(temp / name, fs::perms::owner_all);
+  return error;
+}
+
+TEST(OpenRecording, WhatMayNotBeReadIsNamedAsSuch) {
+  const TempFolder temp;
+  for (const char* name : {"a.bag", "a.mcap", "a.db3", "a.pcap", "a.bin"}) {
+    trajlo::testing::WriteFile(temp / name, "#ROSBAG V2.0");
+    EXPECT_THAT(ErrorWithoutRights(temp, name), HasSubstr("Permission denied")) << name;
+  }
+  SmallRoom(2).Write(temp / "folder");
+  EXPECT_THAT(ErrorWithoutRights(temp, "folder"), HasSubstr("Permission denied"));
+  EXPECT_THAT(ErrorOf(temp / "absent"), HasSubstr("no such folder"));
+}
+
+TEST(OpenRecording, AFileOfMessagesIsToldByItsBytesAndNotByItsName) {
+  const TempFolder temp;
+  const std::filesystem::path fixtures =
+      std::filesystem::path(TRAJLO_TEST_DIR).parent_path() / "ros2/fixtures";
+  const std::string mcap = trajlo::testing::ReadFile(fixtures / "none.mcap");
+  for (const char* name : {"a.bag", "a.db3", "a"}) {
+    trajlo::testing::WriteFile(temp / name, mcap);
+    EXPECT_EQ(OpenClouds(temp / name)->topics().size(), 19u) << name;
+  }
 }
 
 TEST(OpenRecording, OneFolderThatIsMissingIsAnError) {

@@ -116,6 +116,19 @@ TEST(McapReader, AFileOfAKilledRecorderHasAllTopicsCountsAndMessages) {
   EXPECT_THAT(reader.report().warnings.at(0), HasSubstr("ends without its end mark"));
 }
 
+TEST(McapReader, AFileThatIsCutBehindItsMessagesLosesNothingAndSaysSo) {
+  const TempFolder folder;
+  const std::string whole = testing::ReadFile(Fixture("zstd.mcap"));
+  const std::size_t data_end = FindDataEnd(whole) + 13;
+  for (const std::size_t size : {data_end, data_end + 300, whole.size() - 20, whole.size() - 1}) {
+    McapReader reader(folder.Write("cut.mcap", whole.substr(0, size)));
+    EXPECT_EQ(ReadAll(&reader).size(), kMessages) << size;
+    EXPECT_FALSE(reader.report().damaged) << size;
+    ASSERT_EQ(reader.report().warnings.size(), 1U) << size;
+    EXPECT_THAT(reader.report().warnings[0], HasSubstr("the end of the file is cut off")) << size;
+  }
+}
+
 TEST(McapReader, AFileThatIsCompleteButHasNoSummaryIsNotDamaged) {
   const TempFolder folder;
   const std::string whole = testing::ReadFile(Fixture("none.mcap"));
@@ -125,6 +138,7 @@ TEST(McapReader, AFileThatIsCompleteButHasNoSummaryIsNotDamaged) {
   EXPECT_EQ(FindTopic(reader, "/velodyne")->messages, 2U);
   EXPECT_EQ(ReadAll(&reader).size(), kMessages);
   EXPECT_FALSE(reader.report().damaged);
+  EXPECT_THAT(reader.report().warnings, ::testing::IsEmpty());
 }
 
 TEST(McapReader, AChunkWithAWrongChecksumIsSkippedAndTheNextOneRead) {

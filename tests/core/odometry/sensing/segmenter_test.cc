@@ -232,6 +232,135 @@ TEST(Segmenter, MakesOneSegmentAScanWhereThereAreNoPointTimes) {
   for (const SegmentPoint& point : clouds[1].map_points) EXPECT_EQ(point.alpha, 1.0F);
 }
 
+LidarScan DiscreteScan(std::int64_t stamp_ms, int lidar = 0) {
+  LidarScan scan = MakeScan(stamp_ms, 50, lidar);
+  scan.has_point_times = false;
+  for (LidarPoint& point : scan.points) point.t_ns = scan.stamp_ns;
+  return scan;
+}
+
+TEST(Segmenter, AfterAGapAScanWithoutPointTimesIsASegmentAsLongAsBefore) {
+  Segmenter segmenter(SmallOptions());
+  for (const int stamp_ms : {0, 100, 200, 1500, 1600}) segmenter.AddScan(DiscreteScan(stamp_ms));
+  const auto clouds = Drain(&segmenter);
+  ASSERT_EQ(clouds.size(), 6u);
+  EXPECT_TRUE(clouds[3].is_gap);
+  EXPECT_EQ(clouds[3].begin_ns, 200 * kMs);
+  EXPECT_EQ(clouds[3].end_ns, 1400 * kMs);
+  EXPECT_FALSE(clouds[4].is_gap);
+  EXPECT_EQ(clouds[4].end_ns, 1500 * kMs);
+  EXPECT_GT(clouds[4].map_points.size(), 10u);
+}
+
+TEST(Segmenter, ScansOfTwoLidarsWithoutPointTimesShareTheSegmentOfOneStamp) {
+  SegmenterOptions options = SmallOptions();
+  options.T_body_lidar = {SE3(), SE3()};
+  for (const bool second_first : {false, true}) {
+    Segmenter segmenter(options);
+    std::vector<SegmentCloud> clouds;
+    for (int i = 0; i < 5; ++i) {
+      segmenter.AddScan(DiscreteScan(100 * i, second_first ? 1 : 0));
+      segmenter.AddScan(DiscreteScan(100 * i, second_first ? 0 : 1));
+      for (SegmentCloud& cloud : Drain(&segmenter)) clouds.push_back(std::move(cloud));
+    }
+    EXPECT_EQ(segmenter.counts().too_late, 0);
+    ASSERT_EQ(clouds.size(), 5u);
+    for (std::size_t k = 0; k < 5; ++k) {
+      EXPECT_EQ(clouds[k].end_ns, 100 * static_cast<std::int64_t>(k) * kMs);
+      bool first = false, second = false;
+      for (const SegmentPoint& point : clouds[k].map_points) {
+        EXPECT_EQ(point.alpha, 1.0F);
+        (point.p_body_m.y() > 5 ? second : first) = true;
+      }
+      EXPECT_TRUE(first && second) << k;
+    }
+  }
+}
+
+TEST(Segmenter, AScanWithoutPointTimesThatComesBetweenTwoOthersOfAnotherLidarSplitsTheirSegment) {
+  SegmenterOptions options = SmallOptions();
+  options.T_body_lidar = {SE3(), SE3()};
+  Segmenter segmenter(options);
+  segmenter.AddScan(DiscreteScan(0, 0));
+  segmenter.AddScan(DiscreteScan(100, 0));
+  segmenter.AddScan(DiscreteScan(40, 1));
+  segmenter.Finish();
+  const auto clouds = Drain(&segmenter);
+  ASSERT_EQ(clouds.size(), 3u);
+  EXPECT_EQ(clouds[1].end_ns, 40 * kMs);
+  EXPECT_GT(clouds[1].map_points.front().p_body_m.y(), 5.0F);
+  EXPECT_EQ(clouds[2].end_ns, 100 * kMs);
+  EXPECT_EQ(segmenter.counts().too_late, 0);
+}
+
+TEST(Segmenter, AScanWithoutPointTimesAmongOthersThatHaveThemIsAtItsStamp) {
+  SegmenterOptions options = SmallOptions();
+  options.T_body_lidar = {SE3(), SE3()};
+  Segmenter segmenter(options);
+  for (int t = 0; t < 500; t += 100) {
+    segmenter.AddScan(MakeScan(t, 100, 0));
+    segmenter.AddScan(DiscreteScan(t + 42, 1));
+  }
+  segmenter.Finish();
+  EXPECT_EQ(segmenter.counts().too_late, 0);
+  for (const SegmentCloud& cloud : Drain(&segmenter)) {
+    for (const SegmentPoint& point : cloud.map_points) {
+      if (point.p_body_m.y() < 5) continue;
+      const double t_ms = 1e-6 * (static_cast<double>(cloud.begin_ns) +
+                                  point.alpha * static_cast<double>(cloud.end_ns - cloud.begin_ns));
+      EXPECT_NEAR(std::fmod(t_ms, 100.0), 42.0, 1e-3);
+    }
+  }
+}
+
+/// Whatever comes: segments without holes, none shorter than a millisecond but for the instant with
+/// which motion-corrected scans begin, and every point accounted for.
+TEST(Segmenter, NoSegmentIsShorterThanAMillisecond) {
+  for (unsigned seed = 0; seed < 500; ++seed) {
+    std::mt19937 random(seed);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    SegmenterOptions options = SmallOptions();
+    options.map_voxel_m = 1e-4;
+    options.max_range_m = 1e6;
+    options.interval_s = std::vector<double>{0.03, 1e-9, 0.0, 0.1}[below(4)];
+    options.first_interval_s = std::vector<double>{0.1, 0.0, 0.3}[below(3)];
+    options.max_gap_s = std::vector<double>{1.0, 0.0, 0.2}[below(3)];
+    const int lidars = 1 + below(3);
+    options.T_body_lidar.resize(static_cast<std::size_t>(lidars));
+    const int discrete = below(3);  // Never, always, now and then.
+    Segmenter segmenter(options, 1 + below(3));
+    std::vector<std::int64_t> now_ns(3, 0);
+    std::vector<SegmentCloud> clouds;
+    for (int i = 0; i < 60; ++i) {
+      const auto lidar = static_cast<std::size_t>(below(lidars));
+      const std::int64_t steps_ns[] = {1,         999'999,    1'000'000, 7 * kMs,
+                                       100 * kMs, 1000 * kMs, 2500 * kMs};
+      now_ns[lidar] += steps_ns[below(7)];
+      LidarScan scan = MakeScan(0, 20, static_cast<int>(lidar));
+      scan.has_point_times = discrete == 0 || (discrete == 2 && below(2) == 0);
+      scan.stamp_ns = now_ns[lidar];
+      for (LidarPoint& point : scan.points) {
+        point.t_ns = scan.has_point_times ? scan.stamp_ns + point.t_ns / 10 : scan.stamp_ns;
+      }
+      segmenter.AddScan(scan);
+      while (auto cloud = segmenter.Next(1 + below(3))) clouds.push_back(std::move(*cloud));
+    }
+    segmenter.Finish();
+    while (auto cloud = segmenter.Next(1 + below(3))) clouds.push_back(std::move(*cloud));
+    ASSERT_FALSE(clouds.empty());
+    for (std::size_t k = 0; k < clouds.size(); ++k) {
+      const std::int64_t duration_ns = clouds[k].end_ns - clouds[k].begin_ns;
+      const bool is_instant = k == 0 && discrete != 0 && duration_ns == 0;
+      EXPECT_TRUE(duration_ns >= kMs || is_instant) << duration_ns << " seed " << seed;
+      EXPECT_EQ(clouds[k].begin_ns, k > 0 ? clouds[k - 1].end_ns : clouds[k].begin_ns);
+      for (const SegmentPoint& point : clouds[k].map_points) {
+        EXPECT_TRUE(point.alpha >= 0.0F && point.alpha <= 1.0F) << "seed " << seed;
+      }
+    }
+    EXPECT_EQ(segmenter.counts().received, 1200);
+  }
+}
+
 TEST(Segmenter, TurnsRaysUpByTheVerticalCorrection) {
   SegmenterOptions options = SmallOptions();
   options.vertical_correction_deg = 0.205;

@@ -117,8 +117,9 @@ TEST(SegmentAssociation, LeavesOutPointsWithoutPlanes) {
     EXPECT_LT(point.p_body_m.norm(), 20.0);
   }
   segment.points.clear();
-  EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
-  EXPECT_TRUE(found.points.empty());
+  Found none;
+  EXPECT_EQ(segment.Associate(map, &threads, &none), 0);
+  EXPECT_TRUE(none.points.empty());
 }
 
 TEST(SegmentAssociation, IsTheSameToTheByteForAnyNumberOfThreads) {
@@ -185,10 +186,10 @@ TEST(SegmentAssociation, JudgesGrazingByTheRayFromThePointsOwnLidar) {
   MapPyramid map(options);
   map.Insert(walls);
   ThreadPool threads(1);
-  Found found;
   const Eigen::Vector3d middle = hit + 0.15 / ray.x() * ray;
   const std::vector<SegmentPoint> points = {{middle.cast<float>(), 0.5F, 1}};
   const auto normal = [&](const Eigen::Vector3d& origin) {
+    Found found;
     found.association.Associate(points, {Eigen::Vector3d::Zero(), origin}, SE3(), SE3(), map,
                                 &threads, &found.points);
     return found.points.at(0).normal_world;

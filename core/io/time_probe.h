@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/point_table.h"
+#include "core/io/time_convention.h"
+
+namespace trajlo {
+
+/// What the first scans of one LiDAR tell about the times of its points. Scans that have too few
+/// points, or none that are finite, tell nothing: more are asked then.
+class TimeProbe {
+ public:
+  /// Not for ever: a recording of empty scans is decided without evidence.
+  static constexpr std::size_t kMostScans = 500;
+
+  /// `path` is for messages.
+  TimeProbe(std::filesystem::path path, TimeOptions options);
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Takes the next scan; false if it has no positions. Throws InputError, which names `where`, if
+  /// the time field that the options name is missing.
+  bool Note(const std::filesystem::path& where, const PointTable& table,
+            std::optional<std::int64_t> stamp_ns, std::optional<std::int64_t> recorded_ns);
+  /// True when more scans would not be asked.
+  bool IsComplete() const;
+  /// Scans that had positions.
+  std::size_t readable() const { return readable_; }
+  /// False if no stamp is filled, as drivers without a clock leave them; the time of recording then
+  /// stands for the stamp.
+  bool HasStamps() const;
+  /// Typical time between stamps, where the recording knows it better than the first scans.
+  void set_period_s(double period_s) { evidence_.period_s = period_s; }
+  /// Throws InputError when the evidence allows no decision, or contradicts what the options say.
+  TimeConvention Decide() const;
+
+ private:
+  TimeConvention DecideWithoutTimes() const;
+
+  std::filesystem::path path_;
+  TimeOptions options_;
+  TimeEvidence evidence_;
+  std::vector<TimeSample> poor_samples_;  ///< Of scans with few points.
+  std::vector<std::int64_t> stamps_ns_, recorded_ns_;
+  std::string fields_;  ///< Of the first scan with points.
+  std::size_t readable_ = 0;
+  std::size_t with_points_ = 0;
+  std::size_t constant_ = 0;  ///< Scans whose points all have one time.
+};
+
+}  // namespace trajlo

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/sensing/lidar_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trajlo {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+/// Scans that must go on from each other before a pause is believed, or a step of the clock.
+constexpr std::size_t kConfirmPause = 3;
+constexpr std::size_t kConfirmStep = 5;
+/// A scan that more of those behind it overtake did not come early: its stamp is wrong.
+constexpr int kMostOvertaken = 2;
+/// A longer jump ahead is a step of the clock, if nothing else tells.
+constexpr std::int64_t kLongestPause_ns = 60 * kSecond;
+
+}  // namespace
+
+void LidarTrack::NoteArrival(const ScanTimes& times, std::int64_t arrival) {
+  newest_ns_ = times.begin_ns;
+  newest_arrival_ = arrival;
+}
+
+bool LidarTrack::GoesOn(const LidarScan& scan, const ScanTimes& times) const {
+  return held_.empty() && clock_.has_started() &&
+         clock_.IsNext(clock_.PlaceOf(scan, times).begin_ns);
+}
+
+void LidarTrack::NoteAt(const ScanPlace& place, const LidarScan& scan, const ScanTimes& times) {
+  if (!clock_.has_started()) first_ns_ = place.begin_ns;
+  clock_.Note(scan, place);
+  last_recorded_begin_ns_ = times.begin_ns;
+  stands_still_ = false;
+  memory_.Add(place.begin_ns, scan);
+}
+
+/// True if the scan goes on, at a steady period, from others that repeat times with new points: the
+/// clock stepped back by less than what is held, and only seems to go on from the last scan.
+bool LidarTrack::ComesFromBehind(std::size_t i) const {
+  for (; i > 0; --i) {
+    const HeldScan& before = *held_[i - 1];
+    const std::int64_t step_ns = Difference(held_[i]->times.begin_ns, before.times.begin_ns);
+    if (!clock_.IsPeriod(step_ns)) return false;
+    const bool is_taken = memory_.HasTime(PlaceOf(before).begin_ns, clock_.period_ns() / 2);
+    if (Ahead(before) <= 0 && is_taken && !memory_.HasPoints(before.scan)) return true;
+  }
+  return false;
+}
+
+void LidarTrack::Judge(const Others& others, bool is_final) {
+  while (!held_.empty()) {
+    if (!clock_.has_started()) {
+      if (!Start(others, is_final)) return;
+      continue;
+    }
+    if (HandOnNext() || GoOnFromAnchor(others, is_final)) continue;
+    if (held_.size() < kMostHeld && !is_final) return;
+    GiveUpOldest(others);
+  }
+}
+
+std::int64_t LidarTrack::Ahead(const HeldScan& held) const {
+  return Difference(PlaceOf(held).begin_ns, clock_.last().begin_ns);
+}
+
+bool LidarTrack::IsPlausibleStep(const HeldScan& from, const HeldScan& to) const {
+  const std::int64_t step_ns = Difference(to.times.begin_ns, from.times.begin_ns);
+  return step_ns > 0 && step_ns >= clock_.period_ns() / 2 && step_ns <= clock_.longest_step_ns();
+}
+
+std::size_t LidarTrack::ChainLength(std::size_t first) const {
+  std::size_t end = first + 1;
+  while (end < held_.size() && IsPlausibleStep(*held_[end - 1], *held_[end])) ++end;
+  return end - first;
+}
+
+bool LidarTrack::HandOnNext() {
+  std::size_t next = held_.size();
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    if (Ahead(*held_[i]) <= 0) continue;
+    if (next == held_.size() || Ahead(*held_[i]) < Ahead(*held_[next])) next = i;
+  }
+  if (next == held_.size()) return false;
+  const ScanPlace place = PlaceOf(*held_[next]);
+  if (!clock_.IsNext(place.begin_ns) || ComesFromBehind(next)) return false;
+  HandOn(held_[next], ScanFate::kHandedOn, place);
+  return true;
+}
+
+/// Whether the time between the last scan and this one really passed.
+bool LidarTrack::DidTimePass(const HeldScan& held, const Others& others) const {
+  const ScanPlace place = PlaceOf(held);
+  if (const auto agree = clock_.DoRecordTimesAgree(held.scan, place)) return *agree;
+  bool others_say_no = false;
+  for (const LidarTrack* other : others.started) {
+    const std::int64_t now_ns = Sum(other->newest_ns_, other->clock_.offset_ns());
+    const std::int64_t to_this_ns = Distance(now_ns, place.begin_ns);
+    if (to_this_ns <= clock_.longest_step_ns()) return true;
+    const bool spoke_since = other->newest_arrival_ > held.arrival;
+    if (spoke_since && Distance(now_ns, clock_.last().begin_ns) < to_this_ns) others_say_no = true;
+  }
+  return !others_say_no && Ahead(held) <= kLongestPause_ns;
+}
+
+bool LidarTrack::IsSameClock(const HeldScan& held, const Others& others) const {
+  const std::int64_t ahead_ns = Ahead(held);
+  if (ahead_ns <= 0) return false;
+  return ahead_ns <= clock_.longest_step_ns() || DidTimePass(held, others);
+}
+
+bool LidarTrack::GoOnFromAnchor(const Others& others, bool is_final) {
+  std::size_t anchor = FindAnchor(others, is_final);
+  if (anchor == held_.size()) {
+    anchor = FindStep(others, is_final);
+    if (anchor == held_.size()) return false;
+    TakeBackStep(anchor, others);
+  }
+  HeldScan* held = held_[anchor];
+  PlaceThoseBefore(*held);
+  HandOn(held, ScanFate::kHandedOn, PlaceOf(*held));
+  return true;
+}
+
+/// The first scan of the same clock that others go on from; one past the end if there is none.
+std::size_t LidarTrack::FindAnchor(const Others& others, bool is_final) const {
+  const std::size_t confirm = is_final ? 2 : kConfirmPause;
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    if (ChainLength(i) < confirm || ComesFromBehind(i)) continue;
+    if (IsSameClock(*held_[i], others)) return i;
+  }
+  if (!is_final) return held_.size();
+  // Of the last scans, whichever comes next after a few lost ones.
+  std::size_t next = held_.size();
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const std::int64_t ahead_ns = Ahead(*held_[i]);
+    if (ahead_ns <= 0 || ahead_ns > clock_.longest_step_ns()) continue;
+    if (next == held_.size() || ahead_ns < Ahead(*held_[next])) next = i;
+  }
+  return next;
+}
+
+std::size_t LidarTrack::FindStep(const Others& others, bool is_final) const {
+  const std::size_t confirm = is_final ? 2 : kConfirmStep;
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    if (ChainLength(i) >= confirm && !IsSameClock(*held_[i], others)) return i;
+  }
+  return held_.size();
+}
+
+/// Moves the clock so that the anchor comes as many periods after the last scan as scans have come.
+void LidarTrack::TakeBackStep(std::size_t anchor, const Others& others) {
+  const HeldScan& held = *held_[anchor];
+  const ScanPlace last = clock_.last();
+  std::int64_t period_ns = clock_.period_ns();
+  if (period_ns == 0) {
+    period_ns = Difference(held_[anchor + 1]->times.begin_ns, held.times.begin_ns);
+  }
+  const std::int64_t wait_ns = static_cast<std::int64_t>(anchor + 1) * period_ns;
+  // The first points of a scan may be missing; its stamp is exact, if it is one of these points.
+  const std::int64_t by_begin_ns = Difference(Sum(last.begin_ns, wait_ns), held.times.begin_ns);
+  const std::int64_t by_stamp_ns = Difference(Sum(last.stamp_ns, wait_ns), held.scan.stamp_ns);
+  const bool stamp_fits = Distance(by_begin_ns, by_stamp_ns) <= period_ns / 2;
+  std::int64_t offset_ns = stamp_fits ? by_stamp_ns : by_begin_ns;
+  // A clock that steps together with another, or back to where it was, is exactly there.
+  std::vector<std::int64_t> known_ns = {0};
+  for (const LidarTrack* other : others.started) known_ns.push_back(other->clock_.offset_ns());
+  for (const std::int64_t known : known_ns) {
+    const bool goes_on = Sum(held.times.begin_ns, known) > last.begin_ns;
+    if (goes_on && Distance(known, offset_ns) <= period_ns / 2) offset_ns = known;
+  }
+  step_ = Step{held.times.begin_ns, Difference(clock_.offset_ns(), offset_ns)};
+  clock_.set_offset_ns(offset_ns);
+}
+
+/// Of the scans that came before the anchor, some lie before it in time, too, some came early, and
+/// the others have wrong stamps.
+void LidarTrack::PlaceThoseBefore(const HeldScan& anchor) {
+  const ScanPlace last = clock_.last();
+  const ScanPlace end = PlaceOf(anchor);
+  std::vector<HeldScan*> in_place, displaced, known;
+  for (HeldScan* held : held_) {
+    if (held == &anchor) break;
+    const std::int64_t begin_ns = PlaceOf(*held).begin_ns;
+    if (begin_ns > last.begin_ns && begin_ns < end.begin_ns) {
+      in_place.push_back(held);
+    } else if (memory_.HasPoints(held->scan)) {
+      known.push_back(held);
+    } else if (!CameEarly(*held, anchor)) {
+      displaced.push_back(held);
+    }
+  }
+  for (HeldScan* held : known) Drop(held);
+  const double periods = static_cast<double>(Difference(end.begin_ns, last.begin_ns)) /
+                         static_cast<double>(std::max<std::int64_t>(clock_.period_ns(), 1));
+  const auto wrong = static_cast<double>(displaced.size());
+  if (in_place.empty() && std::abs(periods - 1.0 - wrong) < 0.5) {
+    SpreadEvenly(displaced, end);
+    return;
+  }
+  for (HeldScan* held : displaced) Drop(held);
+  std::sort(in_place.begin(), in_place.end(), [](const HeldScan* a, const HeldScan* b) {
+    return a->times.begin_ns < b->times.begin_ns;
+  });
+  for (HeldScan* held : in_place) {
+    const bool is_held = std::find(held_.begin(), held_.end(), held) != held_.end();
+    if (!is_held) continue;
+    if (Ahead(*held) > 0) {
+      HandOn(held, ScanFate::kHandedOn, PlaceOf(*held));
+    } else {
+      Drop(held);  // Its time is that of another.
+    }
+  }
+}
+
+/// True if there is a place for the scan among those from the anchor on.
+bool LidarTrack::CameEarly(const HeldScan& held, const HeldScan& anchor) const {
+  const std::int64_t begin_ns = PlaceOf(held).begin_ns;
+  if (begin_ns <= PlaceOf(anchor).begin_ns) return false;
+  bool is_within = false;
+  for (const HeldScan* other : held_) {
+    if (other == &held) continue;
+    const std::int64_t other_ns = PlaceOf(*other).begin_ns;
+    if (Distance(begin_ns, other_ns) <= clock_.period_ns() / 2) return false;
+    is_within = is_within || (other->arrival > anchor.arrival && other_ns > begin_ns);
+  }
+  return is_within;
+}
+
+/// Gives the scans even times between the last one and `end`.
+void LidarTrack::SpreadEvenly(const std::vector<HeldScan*>& displaced, const ScanPlace& end) {
+  const ScanPlace begin = clock_.last();
+  const auto steps = static_cast<std::int64_t>(displaced.size()) + 1;
+  const std::int64_t stamp_step_ns = Difference(end.stamp_ns, begin.stamp_ns) / steps;
+  const std::int64_t step_ns = Difference(end.begin_ns, begin.begin_ns) / steps;
+  for (std::int64_t k = 1; k < steps; ++k) {
+    HeldScan* held = displaced[static_cast<std::size_t>(k - 1)];
+    ScanPlace place{begin.begin_ns + k * step_ns, 0};
+    const std::int64_t by_stamp_ns = Sum(begin.stamp_ns + k * stamp_step_ns,
+                                         Difference(held->times.begin_ns, held->scan.stamp_ns));
+    if (Distance(by_stamp_ns, place.begin_ns) < step_ns / 2) place.begin_ns = by_stamp_ns;
+    place.stamp_ns = begin.stamp_ns + k * stamp_step_ns;
+    HandOn(held, ScanFate::kRetimed, place);
+  }
+}
+
+/// True if the stamps repeat for long.
+bool LidarTrack::StandsStill() const {
+  const std::size_t count = stands_still_ ? 1 : kConfirmPause;
+  if (clock_.period_ns() == 0 || held_.size() < count) return false;
+  return std::all_of(
+      held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(count), [&](const HeldScan* held) {
+        return Distance(held->times.begin_ns, last_recorded_begin_ns_) <= clock_.period_ns() / 2;
+      });
+}
+
+void LidarTrack::GiveUpOldest(const Others& others) {
+  HeldScan* oldest = held_.front();
+  const bool increases = held_.size() < 2 || held_[1]->times.begin_ns > oldest->times.begin_ns;
+  if (held_.size() >= 2 && increases && IsSameClock(*oldest, others)) {
+    HandOn(oldest, ScanFate::kHandedOn, PlaceOf(*oldest));
+    return;
+  }
+  if (!StandsStill() || memory_.HasPoints(oldest->scan)) {
+    Drop(oldest);
+    return;
+  }
+  const ScanPlace last = clock_.last();
+  const std::int64_t recorded_ns = last_recorded_begin_ns_;
+  HandOn(oldest, ScanFate::kAssumed,
+         {last.begin_ns + clock_.period_ns(), last.stamp_ns + clock_.period_ns()});
+  last_recorded_begin_ns_ = recorded_ns;
+  stands_still_ = true;
+}
+
+void LidarTrack::HandOn(HeldScan* held, ScanFate fate, const ScanPlace& place) {
+  NoteAt(place, held->scan, held->times);
+  if (fate == ScanFate::kHandedOn && held->overtaken > 0) fate = ScanFate::kReordered;
+  const std::int64_t arrival = held->arrival;
+  Remove(held, fate, Difference(place.begin_ns, held->times.begin_ns));
+  // Those that came before it are overtaken; for some it is too late now.
+  const std::vector<HeldScan*> rest = held_;
+  for (HeldScan* other : rest) {
+    if (other->arrival > arrival) break;
+    if (Ahead(*other) <= 0 || ++other->overtaken > kMostOvertaken) Drop(other);
+  }
+}
+
+void LidarTrack::Drop(HeldScan* held) {
+  const bool is_repeated =
+      clock_.has_started() &&
+      (memory_.HasPoints(held->scan) || Distance(PlaceOf(*held).begin_ns, clock_.last().begin_ns) <=
+                                            clock_.period_ns() + clock_.period_ns() / 2);
+  Remove(held, is_repeated ? ScanFate::kRepeated : ScanFate::kMisfit, 0);
+}
+
+void LidarTrack::Remove(HeldScan* held, ScanFate fate, std::int64_t shift_ns) {
+  held_.erase(std::find(held_.begin(), held_.end(), held));
+  judgements_.push_back({held, fate, shift_ns});
+}
+
+}  // namespace trajlo

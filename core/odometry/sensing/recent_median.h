@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace trajlo {
+
+/// Of an even number of values the smaller of the two in the middle.
+inline std::optional<std::int64_t> LowerMedian(std::vector<std::int64_t> values) {
+  if (values.empty()) return std::nullopt;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The lower median of the last 16 values.
+class RecentMedian {
+ public:
+  void Add(std::int64_t value) {
+    if (values_.size() < kMost) {
+      values_.push_back(value);
+    } else {
+      values_[next_] = value;
+    }
+    next_ = (next_ + 1) % kMost;
+  }
+  std::size_t size() const { return values_.size(); }
+  /// Empty if there is no value.
+  std::optional<std::int64_t> Value() const { return LowerMedian(values_); }
+
+ private:
+  static constexpr std::size_t kMost = 16;
+  std::vector<std::int64_t> values_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace trajlo

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/sensing/scan_sequencer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+namespace trajlo {
+namespace {
+
+/// For each LiDAR, so many scans wait at most.
+constexpr std::size_t kMostQueued = 16;
+constexpr std::size_t kMostRemarks = 20;
+/// LiDARs of one recording begin and end within so much, or not at the same distance.
+constexpr std::int64_t kSmallShift_ns = 1'000'000'000;
+
+std::string Seconds(std::int64_t ns) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.3f s", 1e-9 * static_cast<double>(ns));
+  return text;
+}
+
+std::string LidarName(std::size_t lidar) { return "lidar " + std::to_string(lidar); }
+
+}  // namespace
+
+ScanSequencer::ScanSequencer(double max_lag_s, HandOn hand_on)
+    : max_lag_ns_(std::llround(max_lag_s * 1e9)), hand_on_(std::move(hand_on)) {}
+
+void ScanSequencer::Add(const LidarScan& scan) {
+  const auto lidar = static_cast<std::size_t>(scan.lidar_id);
+  if (tracks_.empty()) first_lidar_ = lidar;
+  if (lidar >= tracks_.size()) {
+    tracks_.resize(lidar + 1);
+    is_apart_.resize(lidar + 1, false);
+  }
+  const std::int64_t arrival = report_.scans++;
+  LidarTrack& track = tracks_[lidar];
+  const auto times = MeasureTimes(scan, track.clock().usual_span_ns());
+  if (!times) {
+    // A scan without points has nothing to hand on.
+    if (!scan.points.empty()) ++report_.misfits;
+    report_.points += static_cast<std::int64_t>(scan.points.size());
+    return;
+  }
+  track.NoteArrival(*times, arrival);
+  const bool is_plain = times->strays == 0 && track.clock().offset_ns() == 0;
+  if (queue_.empty() && is_plain && track.GoesOn(scan, *times)) {
+    track.Note(scan, *times);
+    hand_on_(scan);
+    return;
+  }
+  queue_.push_back(std::make_unique<Entry>());
+  HeldScan& held = queue_.back()->held;
+  held.scan = scan;
+  held.times = *times;
+  held.arrival = arrival;
+  held.reference_ns = tracks_[first_lidar_].newest_ns();
+  track.Hold(&held);
+  Judge(lidar, false);
+  while (queue_.size() > kMostQueued * tracks_.size()) {
+    Judge(static_cast<std::size_t>(queue_.front()->held.scan.lidar_id), true);
+  }
+}
+
+void ScanSequencer::Finish() {
+  while (!queue_.empty()) {
+    Judge(static_cast<std::size_t>(queue_.front()->held.scan.lidar_id), true);
+  }
+  CompareSpans();
+}
+
+void ScanSequencer::Judge(std::size_t lidar, bool is_final) {
+  LidarTrack::Others others;
+  if (lidar != first_lidar_) others.reference = &tracks_[first_lidar_];
+  others.max_lag_ns = max_lag_ns_;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (i != lidar && tracks_[i].clock().has_started()) others.started.push_back(&tracks_[i]);
+  }
+  LidarTrack& track = tracks_[lidar];
+  track.Judge(others, is_final);
+  for (const Judgement& judgement : track.TakeJudgements()) Apply(judgement);
+  Describe(lidar);
+  Release();
+}
+
+void ScanSequencer::Apply(const Judgement& judgement) {
+  const auto of_lidar = [&](const auto& entry) {
+    return !entry->is_judged && entry->held.scan.lidar_id == judgement.held->scan.lidar_id;
+  };
+  const auto entry = std::find_if(queue_.begin(), queue_.end(), [&](const auto& other) {
+    return &other->held == judgement.held;
+  });
+  switch (judgement.fate) {
+    case ScanFate::kHandedOn:
+      break;
+    case ScanFate::kReordered:
+      ++report_.reordered;
+      break;
+    case ScanFate::kRetimed:
+      ++report_.retimed;
+      break;
+    case ScanFate::kAssumed:
+      ++report_.assumed;
+      break;
+    case ScanFate::kMisfit:
+      ++report_.misfits;
+      break;
+    case ScanFate::kRepeated:
+      ++report_.repeated;
+      break;
+    case ScanFate::kApart:
+      ++report_.apart;
+      break;
+  }
+  const bool is_dropped = judgement.fate == ScanFate::kMisfit ||
+                          judgement.fate == ScanFate::kRepeated ||
+                          judgement.fate == ScanFate::kApart;
+  if (is_dropped) {
+    report_.points += static_cast<std::int64_t>(judgement.held->scan.points.size());
+    queue_.erase(entry);
+    return;
+  }
+  (*entry)->is_judged = true;
+  (*entry)->shift_ns = judgement.shift_ns;
+  report_.points += static_cast<std::int64_t>(judgement.held->times.strays);
+  // It comes before those of its LiDAR that it overtook.
+  const auto place = std::find_if(queue_.begin(), entry, of_lidar);
+  std::rotate(place, entry, entry + 1);
+}
+
+void ScanSequencer::Release() {
+  while (!queue_.empty() && queue_.front()->is_judged) {
+    Entry& front = *queue_.front();
+    RemoveStrays(front.held.times, &front.held.scan);
+    ShiftTimes(front.shift_ns, &front.held.scan);
+    hand_on_(front.held.scan);
+    queue_.pop_front();
+  }
+}
+
+void ScanSequencer::Describe(std::size_t lidar) {
+  if (const auto step = tracks_[lidar].TakeStep()) {
+    ++report_.clock_steps;
+    const bool is_ahead = step->length_ns > 0;
+    Remark(LidarName(lidar) + ": its clock steps " + (is_ahead ? "ahead" : "back") + " by " +
+           Seconds(is_ahead ? step->length_ns : -step->length_ns) + ", to " + Seconds(step->at_ns) +
+           "; the times from there on are moved so that they go on from those before");
+  }
+  const auto apart = tracks_[lidar].TakeApart();
+  if (!apart || is_apart_[lidar]) return;
+  is_apart_[lidar] = true;
+  const std::string how_far =
+      Seconds(std::abs(apart->ahead_ns)) + (apart->ahead_ns > 0 ? " ahead of" : " behind");
+  const std::string first = LidarName(first_lidar_);
+  std::string sentence = LidarName(lidar) + ": its times are " + how_far + " those of " + first;
+  if (apart->never_together) sentence += ", which was silent by then";
+  sentence += "; its scans are left out. If the clocks differ, set input.clock_offset_s";
+  if (!apart->never_together) {
+    sentence += ", of this LiDAR to about " + Seconds(-apart->ahead_ns) +
+                "; if its messages only come late, raise segmenter.max_lag_s";
+  }
+  Remark(sentence);
+}
+
+/// LiDARs of folders are merged by their stamps, so that a wrong clock only shows at the ends: one
+/// that begins later than the other and ends as much later.
+void ScanSequencer::CompareSpans() {
+  if (tracks_.empty() || !tracks_[first_lidar_].clock().has_started()) return;
+  const LidarTrack& first = tracks_[first_lidar_];
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const LidarClock& clock = tracks_[i].clock();
+    if (i == first_lidar_ || !clock.has_started()) continue;
+    const std::int64_t begin_ns = tracks_[i].first_ns() - first.first_ns();
+    const std::int64_t end_ns = clock.last().begin_ns - first.clock().last().begin_ns;
+    const std::int64_t periods_ns = clock.period_ns() + first.clock().period_ns();
+    const bool is_shifted = std::abs(begin_ns) > std::max(kSmallShift_ns, 3 * periods_ns);
+    if (!is_shifted || std::abs(begin_ns - end_ns) > periods_ns + kSmallShift_ns / 10) continue;
+    report_.clocks_may_differ = true;
+    Remark(LidarName(i) + ": it begins " + Seconds(begin_ns) + " after " + LidarName(first_lidar_) +
+           " and ends " + Seconds(end_ns) +
+           " after it: if both recorded at the same time, their clocks differ, and "
+           "input.clock_offset_s of one must be set");
+  }
+}
+
+void ScanSequencer::Remark(const std::string& sentence) {
+  if (report_.remarks.size() < kMostRemarks) report_.remarks.push_back(sentence);
+}
+
+}  // namespace trajlo

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/odometry/sensing/lidar_scan.h"
+#include "core/odometry/sensing/lidar_track.h"
+#include "core/odometry/sensing/time_report.h"
+
+namespace trajlo {
+
+/// The owner of time: takes scans as they were recorded, whatever their stamps, and hands them on
+/// with times that increase for each LiDAR. LidarTrack tells how. LiDARs keep the order among each
+/// other in which their scans came; one whose times do not meet those of the LiDAR that came first
+/// is left out as long as that is so.
+///
+/// A scan that simply goes on is handed on at once and as it is. At the start, five scans of a
+/// LiDAR are awaited; later at most eight are held, and those of other LiDARs that come meanwhile.
+class ScanSequencer {
+ public:
+  using HandOn = std::function<void(const LidarScan&)>;
+
+  /// A LiDAR that is farther than `max_lag_s` from the first one does not meet it.
+  ScanSequencer(double max_lag_s, HandOn hand_on);
+
+  void Add(const LidarScan& scan);
+  /// No further scans: all that are held are judged.
+  void Finish();
+
+  const TimeReport& report() const { return report_; }
+
+ private:
+  struct Entry {
+    HeldScan held;
+    bool is_judged = false;
+    std::int64_t shift_ns = 0;
+  };
+  using Queue = std::deque<std::unique_ptr<Entry>>;
+
+  void Judge(std::size_t lidar, bool is_final);
+  void Apply(const Judgement& judgement);
+  void Release();
+  void Describe(std::size_t lidar);
+  void CompareSpans();
+  void Remark(const std::string& sentence);
+
+  std::int64_t max_lag_ns_;
+  HandOn hand_on_;
+  TimeReport report_;
+  std::vector<LidarTrack> tracks_;
+  std::vector<bool> is_apart_;
+  std::size_t first_lidar_ = 0;
+  Queue queue_;  ///< In the order in which they are to be handed on.
+};
+
+}  // namespace trajlo

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace trajlo {
+
+/// What became of the scans whose times did not simply go on, by reason.
+struct TimeReport {
+  std::int64_t scans = 0;  ///< All that came.
+
+  // Handed on.
+  std::int64_t reordered = 0;  ///< Before scans that came earlier.
+  std::int64_t retimed = 0;    ///< At the free place between their neighbours.
+  std::int64_t assumed = 0;    ///< A period after the scan before, as the stamps stand still.
+  // Dropped.
+  std::int64_t misfits = 0;   ///< The stamp fits nowhere.
+  std::int64_t repeated = 0;  ///< The place of the stamp is taken.
+  std::int64_t apart = 0;     ///< Of a LiDAR whose clock does not meet that of the first.
+
+  std::int64_t clock_steps = 0;  ///< Lasting ones: the later times are moved to go on.
+  std::int64_t points = 0;       ///< Of the dropped scans, and those far from their scan's time.
+
+  /// One LiDAR begins later than another, and ends as much later.
+  bool clocks_may_differ = false;
+
+  /// What a user should know, a sentence each.
+  std::vector<std::string> remarks;
+
+  std::int64_t Dropped() const { return misfits + repeated + apart; }
+};
+
+}  // namespace trajlo
