@@ -2,7 +2,6 @@
 #include "apps/run/run_job.h"
 
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <sstream>
@@ -191,35 +190,6 @@ void End(ExitCode code, const char* reason, const std::string& message, RunSumma
   summary->message = message;
 }
 
-/// What is missing in the input, or cannot be relied on; empty if it is little.
-std::string MissingInput(const RunSummary& s) {
-  constexpr double kSizeableShare = 0.05;
-  std::vector<std::string> parts;
-  if (s.read.file_is_cut) parts.push_back("a part of the file is missing or broken");
-  if (s.read.scans_damaged > 0) {
-    parts.push_back(std::to_string(s.read.scans_damaged) + " scans are damaged");
-  }
-  if (s.read.scans_skipped > 0) {
-    parts.push_back(std::to_string(s.read.scans_skipped) + " scans could not be read at all");
-  }
-  if (s.ShareWithWrongTimes() > kSizeableShare) {
-    parts.push_back(std::to_string(std::lround(100.0 * s.ShareWithWrongTimes())) +
-                    " % of the points were dropped because of their times (" +
-                    std::to_string(s.points.too_late) + " too late, " +
-                    std::to_string(s.points.wrong_time) + " of wrong stamps, " +
-                    std::to_string(s.read.points_without_time) + " impossible)");
-  }
-  const auto scans = static_cast<double>(s.times.scans);
-  if (static_cast<double>(s.times.assumed) > kSizeableShare * scans) {
-    parts.push_back("the times of " + std::to_string(s.times.assumed) + " of " +
-                    std::to_string(s.times.scans) + " scans are assumed");
-  }
-  if (s.times.clocks_may_differ) parts.push_back("the clocks of the LiDARs may differ");
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", and ") + part;
-  return text;
-}
-
 /// The outcome of a run that came to its end; what is worse wins.
 void JudgeOutcome(bool interrupted, RunSummary* s) {
   if (interrupted) {
@@ -235,7 +205,7 @@ void JudgeOutcome(bool interrupted, RunSummary* s) {
         "the estimator got lost at " + FormatSeconds(*s->lost_at_ns) +
             " s; poses from there on are not to be trusted (windows.csv shows what happened)",
         s);
-  } else if (const std::string missing = MissingInput(*s); !missing.empty()) {
+  } else if (const std::string missing = s->MissingInput(); !missing.empty()) {
     End(ExitCode::kPartialInput, "partial_input", missing + "; the warnings say more", s);
   } else {
     End(ExitCode::kOk, "ok", "", s);

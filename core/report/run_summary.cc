@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/run_summary.h"
 
+#include <cmath>
+
 namespace trajlo {
 
 double RunSummary::ShareWithWrongTimes() const {
@@ -22,6 +24,34 @@ std::string RunSummary::OddStamps() const {
   add(times.misfits, "dropped (their stamps fit nowhere)");
   add(times.repeated, "dropped (repeated)");
   add(times.apart, "left out (their clock does not meet that of the first LiDAR)");
+  return text;
+}
+
+std::string RunSummary::MissingInput() const {
+  constexpr double kSizeableShare = 0.05;
+  std::vector<std::string> parts;
+  if (read.file_is_cut) parts.push_back("a part of the file is missing or broken");
+  if (read.scans_damaged > 0) {
+    parts.push_back(std::to_string(read.scans_damaged) + " scans are damaged");
+  }
+  if (read.scans_skipped > 0) {
+    parts.push_back(std::to_string(read.scans_skipped) + " scans could not be read at all");
+  }
+  if (ShareWithWrongTimes() > kSizeableShare) {
+    parts.push_back(std::to_string(std::lround(100.0 * ShareWithWrongTimes())) +
+                    " % of the points were dropped because of their times (" +
+                    std::to_string(points.too_late) + " too late, " +
+                    std::to_string(points.wrong_time) + " of wrong stamps, " +
+                    std::to_string(read.points_without_time) + " impossible)");
+  }
+  const auto scans = static_cast<double>(times.scans);
+  if (static_cast<double>(times.assumed) > kSizeableShare * scans) {
+    parts.push_back("the times of " + std::to_string(times.assumed) + " of " +
+                    std::to_string(times.scans) + " scans are assumed");
+  }
+  if (times.clocks_may_differ) parts.push_back("the clocks of the LiDARs may differ");
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", and ") + part;
   return text;
 }
 

@@ -56,6 +56,10 @@ struct RunSummary {
   /// What became of scans with odd stamps, and of how many: "3 put in order, 1 dropped (...)";
   /// empty if there were none.
   std::string OddStamps() const;
+  /// What of the input is missing or cannot be relied on, if it is more than a little: exit code 3.
+  /// Points count if more than 5 % were dropped because of their times, scans if the times of more
+  /// than 5 % are assumed.
+  std::string MissingInput() const;
 
   double DataSeconds() const {
     return begin_ns && end_ns ? 1e-9 * static_cast<double>(*end_ns - *begin_ns) : 0.0;

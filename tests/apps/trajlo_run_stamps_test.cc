@@ -61,9 +61,11 @@ class StampsTest : public TrajloRunTest {
     Write(stamps);
   }
 
-  Outcome RunAnew(const std::vector<std::string>& more = {}) const {
+  /// No file of a result may become larger than 20 MB.
+  Outcome RunAnew(std::vector<std::string> more = {}) const {
     fs::remove_all(output());
-    return Run(more);
+    more.insert(more.begin(), {"--input=" + input(), "--output=" + output()});
+    return Call(more, 20'000'000);
   }
 
   /// The largest error of the poses, and how long they go on.
@@ -261,7 +263,7 @@ TEST_F(StampsTest, ACutFileIsNamedAsSuch) {
                   fs::file_size(temp_ / "in/scans/000012.pcd") - 100);
   const Outcome outcome = RunAnew();
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 scans are damaged"), Not(HasSubstr("0 scans"))));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 scans are damaged"), Not(HasSubstr("could not be read"))));
 }
 
 }  // namespace

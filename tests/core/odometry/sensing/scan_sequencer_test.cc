@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "core/odometry/sensing/segmenter.h"
+
 namespace trajlo {
 namespace {
 
@@ -383,6 +385,32 @@ TEST(ScanSequencer, LeavesOutALidarThatOnlySpeaksWhenTheFirstHasEnded) {
   }
 }
 
+TEST(ScanSequencer, ALidarThatBeginsAndEndsLaterThanTheFirstRaisesADoubt) {
+  // In the order of the stamps, as folders without times of recording are merged.
+  for (const std::int64_t later : {3 * kSecond, -3 * kSecond, 0 * kSecond}) {
+    for (const bool ends_later : {true, false}) {
+      std::vector<LidarScan> scans;
+      for (int i = 0; i < 100; ++i) {
+        const std::int64_t stamp = kStart + i * kPeriod;
+        scans.push_back(MakeScan(i, stamp, 0));
+        if (ends_later || (stamp + later >= kStart && stamp + later < kStart + 100 * kPeriod)) {
+          scans.push_back(MakeScan(i, stamp + later + 37 * kMs, 1));
+        }
+      }
+      std::stable_sort(scans.begin(), scans.end(),
+                       [](const auto& a, const auto& b) { return a.stamp_ns < b.stamp_ns; });
+      const Result result = Sequence(scans);
+      ExpectSame(result.scans, scans);
+      const bool is_doubtful = ends_later && later != 0;
+      EXPECT_EQ(result.report.clocks_may_differ, is_doubtful) << later;
+      ASSERT_EQ(result.report.remarks.size(), is_doubtful ? 1u : 0u);
+      if (is_doubtful) {
+        EXPECT_THAT(result.report.remarks[0], HasSubstr("input.clock_offset_s"));
+      }
+    }
+  }
+}
+
 TEST(ScanSequencer, TakesALidarInWhenItsClockWasSet) {
   std::vector<LidarScan> scans = Rig(0);
   int left_out = 0;
@@ -486,8 +514,12 @@ TEST(ScanSequencer, AnyStampsGiveIncreasingTimesAndEveryScanIsAccountedFor) {
     std::vector<std::int64_t> now(3, kStart);
     std::size_t out = 0;
     std::vector<std::int64_t> newest(3, std::numeric_limits<std::int64_t>::min());
+    Segmenter segmenter({});
+    std::size_t segments = 0;
     ScanSequencer sequencer(0.5, [&](const LidarScan& scan) {
       ++out;
+      segmenter.AddScan(scan);
+      while (segmenter.Next()) ++segments;
       std::int64_t begin = scan.stamp_ns;
       if (scan.has_point_times) {
         begin = scan.points[0].t_ns;
@@ -531,6 +563,7 @@ TEST(ScanSequencer, AnyStampsGiveIncreasingTimesAndEveryScanIsAccountedFor) {
     sequencer.Finish();
     const TimeReport& report = sequencer.report();
     EXPECT_EQ(report.scans, 200);
+    EXPECT_LT(segments, 10'000u) << seed;
     EXPECT_EQ(out + static_cast<std::size_t>(report.Dropped()), 200u) << seed;
     if (testing::Test::HasFailure()) FAIL() << "seed " << seed;
   }
