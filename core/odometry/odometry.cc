@@ -100,8 +100,7 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
   s->threshold_m = threshold_.threshold_m();
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
-    const bool is_first = s->rounds == 0;
-    s->searched += AssociateWindow(map_, is_first, &threads_, &window_);
+    s->searched += AssociateWindow(map_, &threads_, &window_);
     s->milliseconds_associate += watch.Milliseconds();
     s->Add(solver_->Solve(&window_), options_.solver);
     s->milliseconds_solve += watch.Milliseconds();

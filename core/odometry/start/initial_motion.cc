@@ -50,7 +50,7 @@ class Hypothesis {
     MapPyramid map(map_options);
     map.Insert(first_half);
     SegmentAssociation().Associate(second_half, cloud.lidar_origins_body_m, SE3(), T_end_, map,
-                                   true, threads, &points_with_plane_);
+                                   threads, &points_with_plane_);
   }
 
   RegistrationNormalEquations Linearize(const RegistrationNoise& noise) const {

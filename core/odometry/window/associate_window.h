@@ -7,8 +7,8 @@
 
 namespace trajlo {
 
-/// Finds the planes of all points of the window, each at its own time on the present poses. Without
-/// `renew`, segments that lie where they did are left as they are. Returns the number of look-ups.
-int AssociateWindow(const MapPyramid& map, bool renew, ThreadPool* threads, Window* window);
+/// Finds the planes of all points of the window, each at its own time on the present poses; those
+/// that are still in the same cell of the map keep theirs. Returns the number of look-ups.
+int AssociateWindow(const MapPyramid& map, ThreadPool* threads, Window* window);
 
 }  // namespace trajlo
