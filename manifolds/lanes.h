@@ -48,6 +48,14 @@ T Dot(const Vector3<T>& a, const Vector3<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// R v.
+template <typename T>
+Vector3<T> Rotate(const Eigen::Matrix3d& R, const Vector3<T>& v) {
+  return {R(0, 0) * v.x + R(0, 1) * v.y + R(0, 2) * v.z,
+          R(1, 0) * v.x + R(1, 1) * v.y + R(1, 2) * v.z,
+          R(2, 0) * v.x + R(2, 1) * v.y + R(2, 2) * v.z};
+}
+
 /// Rᵀ v.
 template <typename T>
 Vector3<T> RotateInverse(const Eigen::Matrix3d& R, const Vector3<T>& v) {

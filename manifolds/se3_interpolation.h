@@ -44,6 +44,14 @@ struct SegmentMotion {
            alpha * lanes::Broadcast3<T>(rho) + k3 * lanes::Broadcast3<T>(theta_x_theta_x_rho);
   }
 
+  /// The points in the world, for segments that turn by less than a radian.
+  lanes::Vector3<lanes::Lane4> ToWorld(const lanes::Lane4& alpha,
+                                       const lanes::Vector3<lanes::Lane4>& p) const {
+    const StumpffSeries<lanes::Lane4> c(alpha * alpha * angle_squared);
+    return lanes::Rotate(R_begin, MoveToBegin(alpha, c, p)) +
+           lanes::Broadcast3<lanes::Lane4>(t_begin);
+  }
+
   /// The point in the world.
   Eigen::Vector3d ToWorld(double alpha, const Eigen::Vector3d& p) const {
     const Stumpff c(alpha * alpha * angle_squared);

@@ -35,14 +35,15 @@ void FindPlanes(benchmark::State& state, MapKind kind, bool shared_planes, int l
   MapPyramid map(options);
   map.Insert(SurfacePoints(400000, 1));
   constexpr std::size_t kBatch = MapPyramid::kMaxBatch;
-  const auto queries = SurfacePoints(kBatch * 300, 2);
-  std::vector<Eigen::Vector3d> rays;
-  for (const Eigen::Vector3d& query : queries) rays.push_back(query.normalized());
+  std::vector<PlaneQuery> queries;
+  for (const Eigen::Vector3d& place : SurfacePoints(kBatch * 300, 2)) {
+    queries.push_back({place, place.cast<float>()});
+  }
   std::array<Plane, kBatch> planes;
   std::size_t first = 0;
   std::int64_t found = 0;
   for (auto _ : state) {
-    map.FindPlanes(&queries[first], &rays[first], kBatch, planes.data());
+    map.FindPlanes(&queries[first], kBatch, planes.data());
     for (const Plane& plane : planes) found += plane.exists();
     first = (first + kBatch) % queries.size();
   }

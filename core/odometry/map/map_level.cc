@@ -2,17 +2,6 @@
 #include "core/odometry/map/map_level.h"
 
 namespace trajlo {
-namespace {
-
-VoxelKey VoxelOf(const VoxelKey& cell) { return {cell.x() >> 1, cell.y() >> 1, cell.z() >> 1}; }
-
-/// Which of the eight.
-std::uint32_t CellInVoxel(const VoxelKey& cell) {
-  return static_cast<std::uint32_t>((cell.x() & 1) | (cell.y() & 1) << 1 | (cell.z() & 1) << 2);
-}
-
-}  // namespace
-
 MapLevel::MapLevel(const MapOptions& options, const PlaneFitOptions& plane)
     : plane_(plane),
       cell_size_(0.5 * options.voxel_size_m),
@@ -45,27 +34,6 @@ void MapLevel::RemoveFar(const Eigen::Vector3d& center_world) {
     tree_->Clear();
     tree_->Add(left);
   }
-}
-
-void MapLevel::Prefetch(const VoxelKey& cell) const { points_.index().Prefetch(VoxelOf(cell)); }
-
-const VoxelIndex::Entry* MapLevel::FindSite(const VoxelKey& cell) const {
-  const VoxelIndex::Entry* entry = points_.index().Find(VoxelOf(cell));
-  if (entry == nullptr || entry->site == VoxelIndex::kNoSite) return nullptr;
-  if (cells_) cells_->Prefetch(entry->site, CellInVoxel(cell));
-  return entry;
-}
-
-FittedPlane MapLevel::PlaneAt(const VoxelIndex::Entry& site, const VoxelKey& cell,
-                              const Eigen::Vector3d& query_world,
-                              Eigen::Vector3d* center_world) const {
-  if (!cells_) {
-    *center_world = query_world;
-    return Fit(query_world);
-  }
-  *center_world = cell_size_ * (cell.cast<double>().array() + 0.5);
-  return cells_->Get(site.site, CellInVoxel(cell), site.points_around,
-                     [&] { return Fit(*center_world); });
 }
 
 FittedPlane MapLevel::Fit(const Eigen::Vector3d& center_world) const {

@@ -42,18 +42,41 @@ class MapLevel {
   /// coordinates.
   VoxelKey CellOf(const Eigen::Vector3d& p) const { return VoxelAt(p, inverse_cell_size_); }
 
+  /// Where the planes of a cell refer to, if they are shared.
+  Eigen::Vector3d CenterOf(const VoxelKey& cell) const {
+    return cell_size_ * (cell.cast<double>().array() + 0.5);
+  }
+
   /// Asking for a plane takes three steps. Those of many queries go side by side, each step
   /// fetching ahead what the next one reads.
-  void Prefetch(const VoxelKey& cell) const;
+  void Prefetch(const VoxelKey& cell) const { points_.index().Prefetch(VoxelOf(cell)); }
   /// What the index has there; null where no plane can be.
-  const VoxelIndex::Entry* FindSite(const VoxelKey& cell) const;
-  /// The plane in a cell for one who asks at `query_world`, and the center that it refers to.
+  const VoxelIndex::Entry* FindSite(const VoxelKey& cell) const {
+    const VoxelIndex::Entry* entry = points_.index().Find(VoxelOf(cell));
+    if (entry == nullptr || entry->site == VoxelIndex::kNoSite) return nullptr;
+    if (cells_) cells_->Prefetch(entry->site, CellInVoxel(cell));
+    return entry;
+  }
+  /// The plane of a cell, about `center_world`: CenterOf(cell), or any place if planes are not
+  /// shared.
   FittedPlane PlaneAt(const VoxelIndex::Entry& site, const VoxelKey& cell,
-                      const Eigen::Vector3d& query_world, Eigen::Vector3d* center_world) const;
+                      const Eigen::Vector3d& center_world) const {
+    if (!cells_) return Fit(center_world);
+    return cells_->Get(site.site, CellInVoxel(cell), site.points_around,
+                       [&] { return Fit(center_world); });
+  }
+  bool shares_planes() const { return cells_.has_value(); }
 
   const VoxelHashMap& points() const { return points_; }
 
  private:
+  static VoxelKey VoxelOf(const VoxelKey& cell) {
+    return {cell.x() >> 1, cell.y() >> 1, cell.z() >> 1};
+  }
+  /// Which of the eight.
+  static std::uint32_t CellInVoxel(const VoxelKey& cell) {
+    return static_cast<std::uint32_t>((cell.x() & 1) | (cell.y() & 1) << 1 | (cell.z() & 1) << 2);
+  }
   FittedPlane Fit(const Eigen::Vector3d& center_world) const;
 
   PlaneFitOptions plane_;

@@ -10,11 +10,17 @@ namespace trajlo {
 
 /// Queries on their way from the coarsest level to the finest.
 struct MapPyramid::Batch {
-  const Eigen::Vector3d* places;
-  const Eigen::Vector3d* rays;
-  Plane* planes;
-  std::array<VoxelKey, kMaxBatch> cells;  ///< Of the finest level.
-  std::array<bool, kMaxBatch> grazed;
+  struct Query {
+    VoxelKey finest_cell;
+    /// The plane found so far, if any.
+    FittedPlane plane;
+    Eigen::Vector3d center_world;
+    int level;
+    bool is_wide = false;
+    bool is_grazed = false;
+  };
+  const PlaneQuery* asked;
+  std::array<Query, kMaxBatch> queries;
   /// Those that are not settled yet.
   std::array<std::uint16_t, kMaxBatch> open;
   std::size_t open_count;
@@ -47,70 +53,81 @@ void MapPyramid::RemoveFar(const Eigen::Vector3d& center_world) {
   for (MapLevel& level : levels_) level.RemoveFar(center_world);
 }
 
-void MapPyramid::AskLevel(std::size_t i, Batch* batch) const {
-  const MapLevel& level = levels_[i];
-  const auto shift = static_cast<int>(i);
-  const double scale = std::ldexp(1.0, shift);
+void MapPyramid::AskLevel(int i, Batch* batch) const {
+  const MapLevel& level = levels_[static_cast<std::size_t>(i)];
+  const std::size_t count = batch->open_count;
   std::array<VoxelKey, kMaxBatch> cells;
   std::array<const VoxelIndex::Entry*, kMaxBatch> sites;
-  for (std::size_t j = 0; j < batch->open_count; ++j) {
-    const VoxelKey& finest = batch->cells[batch->open[j]];
-    cells[j] = {finest.x() >> shift, finest.y() >> shift, finest.z() >> shift};
+  for (std::size_t j = 0; j < count; ++j) {
+    const VoxelKey& finest = batch->queries[batch->open[j]].finest_cell;
+    cells[j] = {finest.x() >> i, finest.y() >> i, finest.z() >> i};
     level.Prefetch(cells[j]);
   }
-  for (std::size_t j = 0; j < batch->open_count; ++j) sites[j] = level.FindSite(cells[j]);
+  for (std::size_t j = 0; j < count; ++j) sites[j] = level.FindSite(cells[j]);
 
   std::size_t still_open = 0;
-  for (std::size_t j = 0; j < batch->open_count; ++j) {
+  for (std::size_t j = 0; j < count; ++j) {
     const std::uint16_t q = batch->open[j];
     batch->open[still_open++] = q;
     if (sites[j] == nullptr) continue;
-    Eigen::Vector3d center_world;
-    const FittedPlane fit = level.PlaneAt(*sites[j], cells[j], batch->places[q], &center_world);
-    if (!fit.exists()) continue;
-    const Eigen::Vector3d normal = fit.normal_world.cast<double>();
-    const bool is_grazed = std::abs(normal.dot(batch->rays[q])) < plane_.min_incidence_sine;
-    Plane& plane = batch->planes[q];
-    if (is_grazed && plane.exists() && !batch->grazed[q]) continue;
-    const double offset_m = fit.offset_m;
-    const double distance_m = std::abs(normal.dot(batch->places[q] - center_world) - offset_m);
-    const double relative = fit.thickness_m / plane_.half_weight_thickness_m;
-    plane.normal_world = normal;
-    plane.offset_m = normal.dot(center_world) + offset_m;
-    plane.weight = 1.0 / (1.0 + relative * relative);
-    plane.scale = scale;
-    batch->grazed[q] = is_grazed;
-    const bool is_wide_and_thin = i > 0 && !is_grazed && relative <= 1.0 &&
-                                  fit.thickness_m < plane_.max_wide_flatness * fit.width_m &&
-                                  distance_m <= plane_.max_wide_distance_in_widths * fit.width_m;
-    if (is_wide_and_thin) {
-      --still_open;
-    } else {
-      plane.weight /= scale;
-    }
+    const PlaneQuery& asked = batch->asked[q];
+    const Eigen::Vector3d center_world =
+        level.shares_planes() ? level.CenterOf(cells[j]) : asked.place_world;
+    const FittedPlane plane = level.PlaneAt(*sites[j], cells[j], center_world);
+    if (!plane.exists()) continue;
+    Batch::Query& query = batch->queries[q];
+    const bool is_grazed = IsGrazed(plane, asked.ray_world);
+    if (is_grazed && query.plane.exists() && !query.is_grazed) continue;
+    query.plane = plane;
+    query.center_world = center_world;
+    query.level = i;
+    query.is_grazed = is_grazed;
+    query.is_wide = i > 0 && !is_grazed &&
+                    IsWideAndThin(plane, (asked.place_world - center_world).cast<float>());
+    if (query.is_wide) --still_open;
   }
   batch->open_count = still_open;
 }
 
-void MapPyramid::FindPlanes(const Eigen::Vector3d* places_world, const Eigen::Vector3d* rays_world,
-                            std::size_t count, Plane* planes) const {
+bool MapPyramid::IsGrazed(const FittedPlane& plane, const Eigen::Vector3f& ray_world) const {
+  const auto sine = static_cast<float>(plane_.min_incidence_sine);
+  const float across = plane.normal_world.dot(ray_world);
+  return across * across < sine * sine * ray_world.squaredNorm();
+}
+
+bool MapPyramid::IsWideAndThin(const FittedPlane& plane, const Eigen::Vector3f& from_center) const {
+  const float distance_m = std::abs(plane.normal_world.dot(from_center) - plane.offset_m);
+  return plane.thickness_m <= static_cast<float>(plane_.half_weight_thickness_m) &&
+         plane.thickness_m < static_cast<float>(plane_.max_wide_flatness) * plane.width_m &&
+         distance_m <= static_cast<float>(plane_.max_wide_distance_in_widths) * plane.width_m;
+}
+
+void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const {
   Batch batch;
-  batch.places = places_world;
-  batch.rays = rays_world;
-  batch.planes = planes;
+  batch.asked = queries;
   batch.open_count = count;
   for (std::size_t q = 0; q < count; ++q) {
     batch.open[q] = static_cast<std::uint16_t>(q);
-    batch.cells[q] = levels_.front().CellOf(places_world[q]);
-    planes[q].weight = 0.0;
+    batch.queries[q].finest_cell = levels_.front().CellOf(queries[q].place_world);
   }
-  for (std::size_t i = levels_.size(); i-- > 0;) AskLevel(i, &batch);
+  for (std::size_t i = levels_.size(); i-- > 0;) AskLevel(static_cast<int>(i), &batch);
+
+  for (std::size_t q = 0; q < count; ++q) {
+    const Batch::Query& query = batch.queries[q];
+    Plane& plane = planes[q];
+    plane.weight = 0.0;
+    if (!query.plane.exists()) continue;
+    plane.normal_world = query.plane.normal_world.cast<double>();
+    plane.offset_m = plane.normal_world.dot(query.center_world) + query.plane.offset_m;
+    plane.scale = std::ldexp(1.0, query.level);
+    const double relative = query.plane.thickness_m / plane_.half_weight_thickness_m;
+    plane.weight = 1.0 / ((1.0 + relative * relative) * (query.is_wide ? 1.0 : plane.scale));
+  }
 }
 
-Plane MapPyramid::FindPlane(const Eigen::Vector3d& place_world,
-                            const Eigen::Vector3d& ray_world) const {
+Plane MapPyramid::FindPlane(const PlaneQuery& query) const {
   Plane plane;
-  FindPlanes(&place_world, &ray_world, 1, &plane);
+  FindPlanes(&query, 1, &plane);
   return plane;
 }
 

@@ -16,6 +16,12 @@ struct MapPyramidOptions {
   int levels = 4;
 };
 
+/// A place in the world, and the ray that ends there: from the sensor, of any length.
+struct PlaneQuery {
+  Eigen::Vector3d place_world;
+  Eigen::Vector3f ray_world;
+};
+
 /// The plane normalᵀ x = offset in the world frame.
 struct Plane {
   Eigen::Vector3d normal_world;
@@ -45,21 +51,26 @@ class MapPyramid {
   void Insert(const std::vector<Eigen::Vector3d>& points_world);
   void RemoveFar(const Eigen::Vector3d& center_world);
 
-  /// The planes at `count` <= kMaxBatch places. A ray is the unit vector from the sensor to the
-  /// place: a plane that it merely grazes is taken only where there is no other. A plane that is
-  /// not wide and thin has its weight divided by the ratio of its level.
-  void FindPlanes(const Eigen::Vector3d* places_world, const Eigen::Vector3d* rays_world,
-                  std::size_t count, Plane* planes) const;
-  Plane FindPlane(const Eigen::Vector3d& place_world, const Eigen::Vector3d& ray_world) const;
+  /// Within a cell of the finest level, all levels have the same planes.
+  VoxelKey CellOf(const Eigen::Vector3d& place_world) const {
+    return levels_.front().CellOf(place_world);
+  }
+  /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
+  /// taken only where there is no other. A plane that is not wide and thin has its weight divided
+  /// by the ratio of its level.
+  void FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const;
+  Plane FindPlane(const PlaneQuery& query) const;
 
   const VoxelHashMap& finest() const { return levels_.front().points(); }
   /// Points of all levels.
   std::size_t size() const;
 
  private:
-  struct Candidate;
   struct Batch;
-  void AskLevel(std::size_t level, Batch* batch) const;
+  void AskLevel(int level, Batch* batch) const;
+  bool IsGrazed(const FittedPlane& plane, const Eigen::Vector3f& ray_world) const;
+  /// Whether the plane of a coarser level is flat there, and the place on it.
+  bool IsWideAndThin(const FittedPlane& plane, const Eigen::Vector3f& place_from_center) const;
 
   PlaneFitOptions plane_;
   std::deque<MapLevel> levels_;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cstring>
 #include <stdexcept>
 
 namespace trajlo {
@@ -14,28 +14,12 @@ const VoxelKey kFaces[6] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0,
 
 }  // namespace
 
-/// The k best candidates so far, sorted by distance.
-struct VoxelHashMap::Best {
-  int k;
-  Neighbors* out;
-
-  float Worst() const {
-    return out->count < k ? std::numeric_limits<float>::max() : out->squared_distance[k - 1];
-  }
-
-  void Offer(float squared_distance, float x, float y, float z) {
-    int i = out->count < k ? out->count++ : k - 1;
-    for (; i > 0 && out->squared_distance[i - 1] > squared_distance; --i) {
-      out->squared_distance[i] = out->squared_distance[i - 1];
-      out->x[i] = out->x[i - 1];
-      out->y[i] = out->y[i - 1];
-      out->z[i] = out->z[i - 1];
-    }
-    out->squared_distance[i] = squared_distance;
-    out->x[i] = x;
-    out->y[i] = y;
-    out->z[i] = z;
-  }
+/// The points of seven voxels, relative to the corner of the middle one.
+struct VoxelHashMap::Candidates {
+  /// The last block may hold less than its capacity.
+  static constexpr int kMax = 7 * kMaxPointsPerVoxel + Block::kCapacity;
+  int count = 0;
+  float squared_distance[kMax], x[kMax], y[kMax], z[kMax];
 };
 
 VoxelHashMap::VoxelHashMap(double voxel_size_m, double min_point_spacing_m, double radius_m,
@@ -60,7 +44,7 @@ std::uint32_t VoxelHashMap::NewBlock(const VoxelKey& key) {
   return block;
 }
 
-VoxelHashMap::Block* VoxelHashMap::PlaceFor(VoxelIndex::Entry* entry, const VoxelKey& key,
+VoxelHashMap::Block* VoxelHashMap::BlockFor(VoxelIndex::Entry* entry, const VoxelKey& key,
                                             const Eigen::Vector3f& p) {
   const auto squared_spacing = static_cast<float>(spacing_ * spacing_);
   int count = 0;
@@ -99,24 +83,21 @@ void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
   }
 }
 
-bool VoxelHashMap::InsertPoint(const VoxelKey& key, const Eigen::Vector3d& point_world) {
-  index_.Reserve(7);
+bool VoxelHashMap::Place(const VoxelKey& key, const Eigen::Vector3d& point_world) {
   const Eigen::Vector3f p = (point_world - CornerOf(key)).cast<float>();
-  VoxelIndex::Entry* entry = index_.FindOrAdd(key);
-  Block* block = PlaceFor(entry, key, p);
+  Block* block = BlockFor(index_.FindOrAdd(key), key, p);
   if (block == nullptr) return false;
   block->x[block->count] = p.x();
   block->y[block->count] = p.y();
   block->z[block->count] = p.z();
   ++block->count;
   ++point_count_;
-  AddAround(entry);
-  for (const VoxelKey& face : kFaces) AddAround(index_.FindOrAdd(key + face));
   return true;
 }
 
 void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
                           std::vector<Eigen::Vector3d>* accepted) {
+  // In steps, each of which fetches ahead what the next one reads.
   constexpr std::size_t kBatch = 32;
   std::array<VoxelKey, kBatch> keys;
   for (std::size_t first = 0; first < points_world.size(); first += kBatch) {
@@ -131,9 +112,17 @@ void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
         __builtin_prefetch(&blocks_[entry->block]);
       }
     }
+    std::size_t placed = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d& point = points_world[first + i];
-      if (InsertPoint(keys[i], point) && accepted != nullptr) accepted->push_back(point);
+      if (!Place(keys[i], point)) continue;
+      if (accepted != nullptr) accepted->push_back(point);
+      for (const VoxelKey& face : kFaces) index_.Prefetch(keys[i] + face);
+      keys[placed++] = keys[i];
+    }
+    for (std::size_t i = 0; i < placed; ++i) {
+      AddAround(index_.FindOrAdd(keys[i]));
+      for (const VoxelKey& face : kFaces) AddAround(index_.FindOrAdd(keys[i] + face));
     }
   }
 }
@@ -178,46 +167,74 @@ void VoxelHashMap::RemoveFar(const Eigen::Vector3d& center_world,
   }
 }
 
-void VoxelHashMap::Scan(std::uint32_t block, const Eigen::Vector3f& shift,
-                        const Eigen::Vector3f& query, Best* best) const {
-  // The query relative to this voxel's corner.
-  const Eigen::Vector3f q = query - shift;
+void VoxelHashMap::Gather(std::uint32_t block, const Eigen::Vector3f& shift,
+                          const Eigen::Vector3f& query, Candidates* candidates) const {
   for (; block < kNoNext; block = blocks_[block].next) {
     const Block& points = blocks_[block];
-    float squared[Block::kCapacity];
+    const int first = candidates->count;
+    // All lanes of the block; what is beyond its points is overwritten by the next one.
     for (int i = 0; i < Block::kCapacity; ++i) {
-      const float ex = points.x[i] - q.x(), ey = points.y[i] - q.y(), ez = points.z[i] - q.z();
-      squared[i] = ex * ex + ey * ey + ez * ez;
+      const float x = points.x[i] + shift.x();
+      const float y = points.y[i] + shift.y();
+      const float z = points.z[i] + shift.z();
+      const float dx = x - query.x(), dy = y - query.y(), dz = z - query.z();
+      candidates->x[first + i] = x;
+      candidates->y[first + i] = y;
+      candidates->z[first + i] = z;
+      candidates->squared_distance[first + i] = dx * dx + dy * dy + dz * dz;
     }
-    for (std::uint32_t i = 0; i < points.count; ++i) {
-      if (squared[i] >= best->Worst()) continue;
-      best->Offer(squared[i], points.x[i] + shift.x(), points.y[i] + shift.y(),
-                  points.z[i] + shift.z());
-    }
+    candidates->count += static_cast<int>(points.count);
   }
 }
 
 void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const {
   neighbors->count = 0;
   const VoxelKey key = KeyOf(query_world);
-  const Eigen::Vector3d corner = CornerOf(key);
-  neighbors->origin_world = corner;
-  const Eigen::Vector3f q = (query_world - corner).cast<float>();
-  Best best{std::min(k, kMaxNeighbors), neighbors};
+  const VoxelIndex::Entry* entries[7];
+  for (const VoxelKey& face : kFaces) index_.Prefetch(key + face);
+  entries[0] = index_.Find(key);
+  if (entries[0] == nullptr) return;
+  for (int i = 0; i < 6; ++i) entries[1 + i] = index_.Find(key + kFaces[i]);
+  for (const VoxelIndex::Entry* entry : entries) {
+    if (entry != nullptr && entry->block != VoxelIndex::kNoBlock) {
+      __builtin_prefetch(&blocks_[entry->block]);
+    }
+  }
 
-  const VoxelIndex::Entry* own = index_.Find(key);
-  if (own == nullptr) return;
-  Scan(own->block, Eigen::Vector3f::Zero(), q, &best);
+  const Eigen::Vector3d corner = CornerOf(key);
+  const Eigen::Vector3f query = (query_world - corner).cast<float>();
   const auto size = static_cast<float>(voxel_size_);
-  // The three nearer faces first: what is found there often spares the others.
+  Candidates candidates;
+  Gather(entries[0]->block, Eigen::Vector3f::Zero(), query, &candidates);
   for (int i = 0; i < 6; ++i) {
-    const int axis = i % 3;
-    const bool upper = (q[axis] > 0.5F * size) == (i < 3);
-    const float to_face = upper ? size - q[axis] : q[axis];
-    if (to_face * to_face >= best.Worst()) continue;
-    const VoxelKey& face = kFaces[2 * axis + (upper ? 1 : 0)];
-    const VoxelIndex::Entry* entry = index_.Find(key + face);
-    if (entry != nullptr) Scan(entry->block, size * face.cast<float>(), q, &best);
+    if (entries[1 + i] == nullptr) continue;
+    Gather(entries[1 + i]->block, size * kFaces[i].cast<float>(), query, &candidates);
+  }
+  neighbors->origin_world = corner;
+  TakeNearest(candidates, std::min(k, kMaxNeighbors), neighbors);
+}
+
+void VoxelHashMap::TakeNearest(const Candidates& candidates, int k, Neighbors* neighbors) {
+  // Sorted by insertion. The bits of a positive float are in the order of its value, and the index
+  // below them decides between equals.
+  std::uint64_t best[kMaxNeighbors];
+  int count = 0;
+  for (int c = 0; c < candidates.count; ++c) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &candidates.squared_distance[c], sizeof(bits));
+    const std::uint64_t rank = std::uint64_t{bits} << 32 | static_cast<std::uint32_t>(c);
+    if (count == k && rank >= best[k - 1]) continue;
+    int i = count < k ? count++ : k - 1;
+    for (; i > 0 && best[i - 1] > rank; --i) best[i] = best[i - 1];
+    best[i] = rank;
+  }
+  neighbors->count = count;
+  for (int i = 0; i < count; ++i) {
+    const auto c = static_cast<std::uint32_t>(best[i]);
+    neighbors->squared_distance[i] = candidates.squared_distance[c];
+    neighbors->x[i] = candidates.x[c];
+    neighbors->y[i] = candidates.y[c];
+    neighbors->z[i] = candidates.z[c];
   }
 }
 

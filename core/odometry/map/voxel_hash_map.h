@@ -64,16 +64,18 @@ class VoxelHashMap {
   };
   static constexpr std::uint32_t kNoNext = (1U << 24) - 1;
   static_assert(sizeof(Block) == 64);
-  struct Best;
+  struct Candidates;
 
-  bool InsertPoint(const VoxelKey& key, const Eigen::Vector3d& point_world);
+  /// False when the voxel is full or has a point that is too near.
+  bool Place(const VoxelKey& key, const Eigen::Vector3d& point_world);
   /// Where the next point of a voxel goes; null if the voxel is full or `p` too near to another.
-  Block* PlaceFor(VoxelIndex::Entry* entry, const VoxelKey& key, const Eigen::Vector3f& p);
+  Block* BlockFor(VoxelIndex::Entry* entry, const VoxelKey& key, const Eigen::Vector3f& p);
   std::uint32_t NewBlock(const VoxelKey& key);
   void AddAround(VoxelIndex::Entry* entry);
   void DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed);
-  void Scan(std::uint32_t block, const Eigen::Vector3f& shift, const Eigen::Vector3f& query,
-            Best* best) const;
+  void Gather(std::uint32_t block, const Eigen::Vector3f& shift, const Eigen::Vector3f& query,
+              Candidates* candidates) const;
+  static void TakeNearest(const Candidates& candidates, int k, Neighbors* neighbors);
 
   double voxel_size_, inverse_size_, spacing_, radius_;
   std::uint32_t points_of_site_;

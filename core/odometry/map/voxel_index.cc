@@ -5,12 +5,8 @@
 
 namespace trajlo {
 
-void VoxelIndex::Reserve(std::size_t more) {
-  while (2 * (size_ + more) > entries_.size()) Grow();
-}
-
 VoxelIndex::Entry* VoxelIndex::FindOrAdd(const VoxelKey& key) {
-  Reserve(1);
+  if (2 * (size_ + 1) > entries_.size()) Grow();
   const std::uint64_t packed = Pack(key);
   std::size_t i = Home(packed);
   for (; entries_[i].packed_key != kEmpty; i = Next(i)) {

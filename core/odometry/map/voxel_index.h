@@ -53,9 +53,7 @@ class VoxelIndex {
   /// Brings the place where the entry should be into the cache.
   void Prefetch(const VoxelKey& key) const { __builtin_prefetch(&entries_[Home(Pack(key))]); }
 
-  /// Makes room for so many more entries: until then, entries stay where they are.
-  void Reserve(std::size_t more);
-  /// A new entry is empty.
+  /// A new entry is empty. Others may move.
   Entry* FindOrAdd(const VoxelKey& key);
   void Erase(const VoxelKey& key);
   std::size_t size() const { return size_; }

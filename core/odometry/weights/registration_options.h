@@ -16,7 +16,7 @@ struct RegistrationOptions {
   /// Width of the kernel: this share of the adaptive threshold, within the bounds below.
   double kernel_in_thresholds = 0.33;
   double min_kernel_m = 0.1;
-  double max_kernel_m = 0.5;
+  double max_kernel_m = 0.1;
 };
 
 /// The noise with a kernel of `kernel_m`; errors that are shared make sigma larger.

@@ -7,9 +7,8 @@
 
 namespace trajlo {
 
-/// Finds the planes of all points of the window, each at its own time on the present poses.
-/// Segments that lie where they did at their last look-up keep their planes. Returns the number of
-/// look-ups.
+/// Finds the planes of all points of the window, each at its own time on the present poses; those
+/// that are still in the same cell of the map keep theirs. Returns the number of look-ups.
 int AssociateWindow(const MapPyramid& map, ThreadPool* threads, Window* window);
 
 }  // namespace trajlo

@@ -4,78 +4,96 @@
 #include <algorithm>
 #include <array>
 
-#include "manifolds/se3_interpolation.h"
-
 namespace trajlo {
 namespace {
 
-/// A segment lies where it did if no point of it, up to this far away, has moved by more than this.
-constexpr double kSamePlace_m = 0.003;
-constexpr double kLeverArm_m = 20.0;
+using lanes::At;
+using lanes::Lane4;
 
-/// Looks up the planes of at most kMaxBatch points; returns how many have one.
-std::size_t AssociateBatch(const SegmentPoint* points, std::size_t count,
-                           const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
-                           const SegmentMotion& motion, const MapPyramid& map,
-                           RegistrationPoint* found) {
-  std::array<Eigen::Vector3d, MapPyramid::kMaxBatch> places_world, rays_world;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double alpha = points[i].alpha;
-    places_world[i] = motion.ToWorld(alpha, points[i].p_body_m.cast<double>());
-    const Eigen::Vector3d lidar_world =
-        motion.ToWorld(alpha, lidar_origins_body_m[points[i].lidar]);
-    rays_world[i] = (places_world[i] - lidar_world).normalized();
+constexpr std::size_t kBatch = MapPyramid::kMaxBatch;
+
+/// Takes at most kBatch points to the world, four at a time.
+void ToWorld(const SegmentMotion& motion, const SegmentPoint* points, std::size_t count,
+             std::array<Eigen::Vector3d, kBatch>* places_world) {
+  std::size_t i = 0;
+  // The series that lanes sum need less than a radian.
+  for (; motion.angle_squared < 1.0 && i + 4 <= count; i += 4) {
+    Lane4 alpha;
+    lanes::Vector3<Lane4> p;
+    for (int lane = 0; lane < 4; ++lane) {
+      const SegmentPoint& point = points[i + static_cast<std::size_t>(lane)];
+      At(alpha, lane) = point.alpha;
+      At(p.x, lane) = point.p_body_m.x();
+      At(p.y, lane) = point.p_body_m.y();
+      At(p.z, lane) = point.p_body_m.z();
+    }
+    const lanes::Vector3<Lane4> place = motion.ToWorld(alpha, p);
+    for (int lane = 0; lane < 4; ++lane) {
+      (*places_world)[i + static_cast<std::size_t>(lane)] = {place.x[lane], place.y[lane],
+                                                             place.z[lane]};
+    }
   }
-  std::array<Plane, MapPyramid::kMaxBatch> planes;
-  map.FindPlanes(places_world.data(), rays_world.data(), count, planes.data());
-  std::size_t found_count = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!planes[i].exists()) continue;
-    found[found_count++] = {points[i].p_body_m.cast<double>(), points[i].alpha,
-                            planes[i].normal_world, planes[i].offset_m, planes[i].weight};
+  for (; i < count; ++i) {
+    (*places_world)[i] = motion.ToWorld(points[i].alpha, points[i].p_body_m.cast<double>());
   }
-  return found_count;
 }
 
 }  // namespace
 
-bool SegmentAssociation::HasMoved(const SE3& T_begin, const SE3& T_end) const {
-  const auto moved_by = [](const SE3& a, const SE3& b) {
-    return (a.t - b.t).norm() + kLeverArm_m * a.q.angularDistance(b.q);
-  };
-  return moved_by(T_begin_, T_begin) > kSamePlace_m || moved_by(T_end_, T_end) > kSamePlace_m;
+/// Looks up planes for those of at most kBatch points that have none or are in another cell than
+/// before; returns how many they were.
+int SegmentAssociation::Renew(const SegmentPoint* points, std::size_t count,
+                              const SegmentMotion& motion, const std::vector<LidarPath>& lidars,
+                              const MapPyramid& map, Entry* entries) {
+  std::array<Eigen::Vector3d, kBatch> places;
+  ToWorld(motion, points, count, &places);
+  std::array<PlaneQuery, kBatch> queries;
+  std::array<Plane, kBatch> planes;
+  std::array<std::size_t, kBatch> asking;
+  std::size_t asked = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const VoxelKey cell = map.CellOf(places[i]);
+    if (cell == entries[i].cell && entries[i].plane.exists()) continue;
+    entries[i].cell = cell;
+    const LidarPath& lidar = lidars[points[i].lidar];
+    const Eigen::Vector3d origin = lidar.begin_world + points[i].alpha * lidar.way_world;
+    queries[asked] = {places[i], (places[i] - origin).cast<float>()};
+    asking[asked++] = i;
+  }
+  map.FindPlanes(queries.data(), asked, planes.data());
+  for (std::size_t i = 0; i < asked; ++i) entries[asking[i]].plane = planes[i];
+  return static_cast<int>(asked);
 }
 
 int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
                                   const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
                                   const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
                                   ThreadPool* threads, std::vector<RegistrationPoint>* associated) {
-  if (is_associated_ && !HasMoved(T_begin, T_end)) return 0;
-  is_associated_ = true;
-  T_begin_ = T_begin;
-  T_end_ = T_end;
+  entries_.resize(points.size());
   const SegmentMotion motion(T_begin, T_end);
-  constexpr std::size_t kChunk = MapPyramid::kMaxBatch;
-  const std::size_t chunks = (points.size() + kChunk - 1) / kChunk;
-  associated->resize(points.size());
-  chunk_found_.resize(chunks);
-  threads->ParallelFor(chunks, [&](std::size_t chunk) {
-    const std::size_t first = chunk * kChunk;
-    chunk_found_[chunk] = AssociateBatch(&points[first], std::min(kChunk, points.size() - first),
-                                         lidar_origins_body_m, motion, map, &(*associated)[first]);
-  });
-  // The chunks close up.
-  std::size_t end = 0;
-  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-    const auto first = associated->begin() + static_cast<std::ptrdiff_t>(chunk * kChunk);
-    const auto last = first + static_cast<std::ptrdiff_t>(chunk_found_[chunk]);
-    if (end < chunk * kChunk) {
-      std::move(first, last, associated->begin() + static_cast<std::ptrdiff_t>(end));
-    }
-    end += chunk_found_[chunk];
+  std::vector<LidarPath> lidars;
+  for (const Eigen::Vector3d& origin : lidar_origins_body_m) {
+    lidars.push_back({T_begin * origin, T_end * origin - T_begin * origin});
   }
-  associated->resize(end);
-  return static_cast<int>(points.size());
+  const std::size_t chunks = (points.size() + kBatch - 1) / kBatch;
+  chunk_searched_.resize(chunks);
+  threads->ParallelFor(chunks, [&](std::size_t chunk) {
+    const std::size_t first = chunk * kBatch;
+    chunk_searched_[chunk] = Renew(&points[first], std::min(kBatch, points.size() - first), motion,
+                                   lidars, map, &entries_[first]);
+  });
+  int searched = 0;
+  for (const int count : chunk_searched_) searched += count;
+  if (searched == 0) return 0;
+
+  associated->clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Plane& plane = entries_[i].plane;
+    if (!plane.exists()) continue;
+    associated->push_back({points[i].p_body_m.cast<double>(), points[i].alpha, plane.normal_world,
+                           plane.offset_m, plane.weight});
+  }
+  return searched;
 }
 
 }  // namespace trajlo

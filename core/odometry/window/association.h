@@ -1,34 +1,46 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/parallel/parallel_for.h"
 #include "core/odometry/sensing/segment_cloud.h"
 #include "factors/registration_point.h"
-#include "manifolds/se3.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 
-/// The planes of one segment's points, kept from round to round while the segment does not move.
+/// The planes of one segment's points. A point keeps its plane until it enters another cell of the
+/// map; a point without one asks again, as the map may have grown.
 class SegmentAssociation {
  public:
-  /// Looks up a plane for every point, at its own time on T_begin..T_end; nothing is looked up
-  /// where the segment lies where it did at the last look-up. `lidar_origins_body_m` says where
-  /// each point's LiDAR is. `associated` receives the points that have a plane, in the order of
-  /// `points`; it stays as it is where nothing is looked up. Returns the number of look-ups.
+  /// Takes every point to the world at its own time on T_begin..T_end, and looks up the planes of
+  /// those that have none, or are in another cell than at the last call. `points` are the same at
+  /// every call; `lidar_origins_body_m` says where each point's LiDAR is. `associated` receives the
+  /// points that have a plane, in the order of `points`; it stays as it is where nothing is looked
+  /// up. Returns the number of look-ups.
   int Associate(const std::vector<SegmentPoint>& points,
                 const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const SE3& T_begin,
                 const SE3& T_end, const MapPyramid& map, ThreadPool* threads,
                 std::vector<RegistrationPoint>* associated);
 
  private:
-  bool HasMoved(const SE3& T_begin, const SE3& T_end) const;
+  struct Entry {
+    VoxelKey cell = VoxelKey::Constant(std::numeric_limits<int>::min());
+    Plane plane;
+  };
+  /// A LiDAR on its way through a segment.
+  struct LidarPath {
+    Eigen::Vector3d begin_world, way_world;
+  };
 
-  bool is_associated_ = false;
-  SE3 T_begin_, T_end_;  ///< At the last look-up.
-  std::vector<std::size_t> chunk_found_;
+  static int Renew(const SegmentPoint* points, std::size_t count, const SegmentMotion& motion,
+                   const std::vector<LidarPath>& lidars, const MapPyramid& map, Entry* entries);
+
+  std::vector<Entry> entries_;
+  std::vector<int> chunk_searched_;
 };
 
 }  // namespace trajlo

@@ -30,8 +30,9 @@ MapOptions Options(MapKind kind, bool shared_planes) {
 
 FittedPlane Ask(const MapLevel& level, const Eigen::Vector3d& p, Eigen::Vector3d* center) {
   const VoxelKey cell = level.CellOf(p);
+  *center = level.shares_planes() ? level.CenterOf(cell) : p;
   const VoxelIndex::Entry* site = level.FindSite(cell);
-  return site == nullptr ? FittedPlane() : level.PlaneAt(*site, cell, p, center);
+  return site == nullptr ? FittedPlane() : level.PlaneAt(*site, cell, *center);
 }
 
 bool AreSame(const FittedPlane& a, const FittedPlane& b) {
@@ -77,10 +78,9 @@ TEST(MapLevel, APlaneFollowsTheMapWhenItHasGrownByMoreThanAnEighth) {
   int changes = 0;
   for (const Eigen::Vector3d& p : Floor(60000, 4.0, 0.01, 3)) {
     level.Insert({p}, &accepted);
-    const VoxelKey cell = level.CellOf(asked);
-    const VoxelIndex::Entry* site = level.FindSite(cell);
+    const VoxelIndex::Entry* site = level.FindSite(level.CellOf(asked));
     if (site == nullptr) continue;
-    const FittedPlane plane = level.PlaneAt(*site, cell, asked, &center);
+    const FittedPlane plane = Ask(level, asked, &center);
     if (fitted_at == 0 || site->points_around > fitted_at + fitted_at / 8 + 1) {
       Neighbors neighbors;
       level.points().Nearest(center, 8, &neighbors);

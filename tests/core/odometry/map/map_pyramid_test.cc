@@ -32,16 +32,16 @@ TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
   PlaneFitOptions no_wide;
   no_wide.max_wide_flatness = 0.0;
   const MapPyramid wide = MakeMap({}, floor), fine = MakeMap(no_wide, floor);
-  const Eigen::Vector3d ray(0.8, 0.0, -0.6);
+  const Eigen::Vector3f ray(0.8, 0.0, -0.6);
   double tilt_wide = 0.0, tilt_fine = 0.0;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d query(random.Uniform(-2, 2), random.Uniform(-2, 2), 0.2);
-    Plane plane = wide.FindPlane(query, ray);
+    Plane plane = wide.FindPlane({query, ray});
     ASSERT_TRUE(plane.exists());
     EXPECT_GT(plane.scale, 1.0);
     EXPECT_GT(plane.weight, 0.7);  // Not divided by the ratio of its level.
     tilt_wide += plane.normal_world.head<2>().norm();
-    plane = fine.FindPlane(query, ray);
+    plane = fine.FindPlane({query, ray});
     ASSERT_TRUE(plane.exists());
     EXPECT_LE(plane.scale, 2.0);
     tilt_fine += plane.normal_world.head<2>().norm();
@@ -58,7 +58,7 @@ TEST(MapPyramid, TakesTheFinePlaneWhereTheWideOneIsNotThin) {
     }
   }
   const MapPyramid map = MakeMap({}, stairs);
-  Plane plane = map.FindPlane({0.25, 0.0, 0.01}, {0.8, 0.0, -0.6});
+  Plane plane = map.FindPlane({{0.25, 0.0, 0.01}, {0.8F, 0.0F, -0.6F}});
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
   EXPECT_NEAR(plane.offset_m * plane.normal_world.z(), 0.0, 1e-6);
@@ -75,16 +75,16 @@ TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
     for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(4.65, y, z);
   }
   const MapPyramid map = MakeMap({}, wall_then_post);
-  const Eigen::Vector3d ray(1.0, 0.0, 0.0);
-  Plane plane = map.FindPlane({4.66, 1.6, 1.0}, ray);
+  const Eigen::Vector3f ray(1.0, 0.0, 0.0);
+  Plane plane = map.FindPlane({{4.66, 1.6, 1.0}, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 4.65, 0.01);
   PlaneFitOptions anywhere;
   anywhere.max_wide_distance_in_widths = 100.0;
-  plane = MakeMap(anywhere, wall_then_post).FindPlane({4.66, 1.6, 1.0}, ray);
+  plane = MakeMap(anywhere, wall_then_post).FindPlane({{4.66, 1.6, 1.0}, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_GT(plane.offset_m * plane.normal_world.x(), 4.9);
-  plane = map.FindPlane({5.01, -2.0, 1.0}, ray);
+  plane = map.FindPlane({{5.01, -2.0, 1.0}, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 5.0, 1e-6);
   EXPECT_GT(plane.scale, 1.0);
@@ -104,14 +104,15 @@ TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
     }
   }
   const MapPyramid map = MakeMap({}, points);
-  const Eigen::Vector3d query(5.15, 0.0, 0.0), ray(1.0, 0.0, 0.0);
-  Plane plane = map.FindPlane(query, ray);
+  const Eigen::Vector3d query(5.15, 0.0, 0.0);
+  const Eigen::Vector3f ray(1.0, 0.0, 0.0);
+  Plane plane = map.FindPlane({query, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_GT(std::abs(plane.normal_world.x()), 0.9);
   PlaneFitOptions options;
   options.min_incidence_sine = 0.0;
   options.max_wide_flatness = 0.0;
-  plane = MakeMap(options, points).FindPlane(query, ray);
+  plane = MakeMap(options, points).FindPlane({query, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_GT(std::abs(plane.normal_world.z()), 0.9);
 }
@@ -122,7 +123,7 @@ TEST(MapPyramid, TakesAPlaneAlongTheRayWhereThereIsNoOther) {
     for (double y = -1.0; y < 1.0; y += 0.05) ground.emplace_back(x, y, 0.0);
   }
   const MapPyramid map = MakeMap({}, ground);
-  Plane plane = map.FindPlane({0, 0, 0}, {0.999, 0.0, -0.0447});
+  Plane plane = map.FindPlane({{0, 0, 0}, {0.999F, 0.0F, -0.0447F}});
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
   EXPECT_EQ(plane.scale, 1.0);

@@ -37,15 +37,21 @@ TEST(VoxelIndex, IsAMapFromVoxelsThroughAdditionsAndErasures) {
   EXPECT_GT(reference.size(), 2000u);
 }
 
-TEST(VoxelIndex, AnEntryBeginsEmptyAndStaysWhereItIsWhileThereIsRoom) {
+TEST(VoxelIndex, AnEntryBeginsEmptyAndKeepsWhatItHoldsWhenTheTableGrows) {
   VoxelIndex index;
-  index.Reserve(5000);
   VoxelIndex::Entry* entry = index.FindOrAdd({1, 2, 3});
   EXPECT_EQ(entry->block, VoxelIndex::kNoBlock);
   EXPECT_EQ(entry->site, VoxelIndex::kNoSite);
   EXPECT_EQ(entry->points_around, 0u);
-  for (int i = 0; i < 4999; ++i) index.FindOrAdd({i, -i, 7});
-  EXPECT_EQ(index.Find({1, 2, 3}), entry);
+  entry->block = 5;
+  entry->site = VoxelIndex::kNoSite - 1;
+  entry->points_around = 140;
+  for (int i = 0; i < 5000; ++i) index.FindOrAdd({i, -i, 7});
+  const VoxelIndex::Entry* same = index.Find({1, 2, 3});
+  ASSERT_NE(same, nullptr);
+  EXPECT_EQ(same->block, 5u);
+  EXPECT_EQ(same->site, VoxelIndex::kNoSite - 1);
+  EXPECT_EQ(same->points_around, 140u);
 }
 
 TEST(VoxelIndex, TakesAVoxelOfTheCoarserGridForEightOfTheFiner) {

@@ -117,9 +117,9 @@ TEST(SegmentAssociation, LeavesOutPointsWithoutPlanes) {
     EXPECT_LT(point.p_body_m.norm(), 20.0);
   }
   segment.points.clear();
-  Found none;
-  EXPECT_EQ(segment.Associate(map, &threads, &none), 0);
-  EXPECT_TRUE(none.points.empty());
+  Found nothing;
+  EXPECT_EQ(segment.Associate(map, &threads, &nothing), 0);
+  EXPECT_TRUE(nothing.points.empty());
 }
 
 TEST(SegmentAssociation, IsTheSameToTheByteForAnyNumberOfThreads) {
@@ -146,19 +146,59 @@ TEST(SegmentAssociation, IsTheSameToTheByteForAnyNumberOfThreads) {
   }
 }
 
-TEST(SegmentAssociation, LooksUpAgainOnlyWhereTheSegmentMoved) {
+TEST(SegmentAssociation, LooksUpAgainOnlyThePointsThatEnteredAnotherCell) {
   const MapPyramid map = BoxMap(20000, 1);
   Segment segment(500, 7);
   ThreadPool threads(1);
   Found found;
   EXPECT_EQ(segment.Associate(map, &threads, &found), 500);
   EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
-  segment.T_end.t.x() += 0.001;
-  EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
-  segment.T_end.t.x() += 0.003;
-  EXPECT_EQ(segment.Associate(map, &threads, &found), 500);
-  segment.T_begin.q = segment.T_begin.q * so3::Exp(Eigen::Vector3d(0, 0, 3e-4));
-  EXPECT_EQ(segment.Associate(map, &threads, &found), 500);
+  const std::vector<RegistrationPoint> before = found.points;
+  const Eigen::Vector3d step(0.01, 0.0, 0.0);
+  int entered = 0;
+  const SegmentMotion motion(segment.T_begin, segment.T_end);
+  for (const SegmentPoint& point : segment.points) {
+    const Eigen::Vector3d p = motion.ToWorld(point.alpha, point.p_body_m.cast<double>());
+    entered += map.CellOf(p) != map.CellOf(p + step);
+  }
+  EXPECT_GT(entered, 10);
+  segment.T_begin.t += step;
+  segment.T_end.t += step;
+  EXPECT_NEAR(segment.Associate(map, &threads, &found), entered, 2);
+  // As if all had been looked up anew.
+  Found anew;
+  EXPECT_EQ(segment.Associate(map, &threads, &anew), 500);
+  ASSERT_NEAR(static_cast<double>(found.points.size()), static_cast<double>(anew.points.size()), 5);
+  segment.T_begin.t -= step;
+  segment.T_end.t -= step;
+  EXPECT_GT(segment.Associate(map, &threads, &found), 0);
+  ASSERT_EQ(found.points.size(), before.size());
+}
+
+TEST(SegmentAssociation, MovesPointsInLanesAsOneByOne) {
+  // A segment that turns by more than a radian takes the other path.
+  testing::Random random(9);
+  for (const double angle : {0.0, 0.01, 0.99}) {
+    const SE3 T_begin = random.Pose();
+    const SegmentMotion motion(T_begin, Plus(T_begin, random.Tangent(angle, 0.5)));
+    for (int i = 0; i < 50; ++i) {
+      lanes::Lane4 alpha;
+      lanes::Vector3<lanes::Lane4> p;
+      for (int lane = 0; lane < 4; ++lane) {
+        alpha[lane] = random.Uniform(0.0, 1.0);
+        p.x[lane] = random.Uniform(-50.0, 50.0);
+        p.y[lane] = random.Uniform(-50.0, 50.0);
+        p.z[lane] = random.Uniform(-50.0, 50.0);
+      }
+      const lanes::Vector3<lanes::Lane4> moved = motion.ToWorld(alpha, p);
+      for (int lane = 0; lane < 4; ++lane) {
+        const Eigen::Vector3d one = motion.ToWorld(alpha[lane], {p.x[lane], p.y[lane], p.z[lane]});
+        EXPECT_NEAR(moved.x[lane], one.x(), 1e-12);
+        EXPECT_NEAR(moved.y[lane], one.y(), 1e-12);
+        EXPECT_NEAR(moved.z[lane], one.z(), 1e-12);
+      }
+    }
+  }
 }
 
 TEST(SegmentAssociation, JudgesGrazingByTheRayFromThePointsOwnLidar) {
