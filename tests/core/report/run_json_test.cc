@@ -30,6 +30,8 @@ RunSummary ExampleSummary() {
   s.points.received = 1000;
   s.points.not_finite = 10;
   s.points.too_near = 20;
+  s.times.retimed = 2;
+  s.times.clock_steps = 1;
   s.begin_ns = 1'700'000'000'000'000'001;
   s.end_ns = 1'700'000'002'000'000'001;
   s.lost_at_ns = 1'700'000'001'000'000'001;
@@ -44,12 +46,49 @@ RunSummary ExampleSummary() {
   return s;
 }
 
+TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
+  RunSummary s;
+  EXPECT_EQ(s.MissingInput(), "");
+  s.points.received = 1000;
+  s.points.too_late = 20;
+  s.points.wrong_time = 20;
+  s.read.points_without_time = 10;
+  s.times.scans = 100;
+  s.times.assumed = 5;
+  s.times.retimed = 50;
+  EXPECT_EQ(s.MissingInput(), "");
+  s.read.points_without_time = 11;
+  EXPECT_EQ(
+      s.MissingInput(),
+      "5 % of the points were dropped because of their times (20 too late, 20 of wrong stamps, "
+      "11 impossible)");
+  s.points = {};
+  s.times.assumed = 6;
+  EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are assumed");
+  s.times.assumed = 0;
+  s.read.file_is_cut = true;
+  s.times.clocks_may_differ = true;
+  EXPECT_EQ(s.MissingInput(),
+            "a part of the file is missing or broken, and the clocks of the LiDARs may differ");
+}
+
+TEST(RunSummary, CountsOddStampsByReason) {
+  RunSummary s;
+  EXPECT_EQ(s.OddStamps(), "");
+  s.times.reordered = 3;
+  s.times.misfits = 1;
+  EXPECT_EQ(s.OddStamps(), "3 put in order, 1 dropped (their stamps fit nowhere)");
+  EXPECT_THAT(SummaryTable(s), HasSubstr("3 put in order"));
+}
+
 TEST(RunJson, HoldsTheSummary) {
   const nlohmann::json json = nlohmann::json::parse(RunJson(ExampleSummary()));
   EXPECT_EQ(json["exit"]["code"], 4);
   EXPECT_EQ(json["exit"]["reason"], "lost");
   EXPECT_EQ(json["command_line"][1], "--input=a \"b\"");
   EXPECT_EQ(json["input"]["scans"]["skipped"], 1);
+  EXPECT_EQ(json["input"]["scans"]["retimed"], 2);
+  EXPECT_EQ(json["input"]["clock_steps"], 1);
   EXPECT_EQ(json["input"]["points"]["kept"], 970);
   EXPECT_EQ(json["result"]["begin_s"], "1700000000.000000001");
   EXPECT_EQ(json["result"]["duration_s"], 2.0);
