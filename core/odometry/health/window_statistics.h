@@ -39,7 +39,7 @@ struct WindowStatistics {
   double threshold_m = 0.0;
   double kernel_m = 0.0;
   /// Smallest eigenvalue of the registration information of the newest control poses, per point,
-  /// and its direction [rho; theta] in the body frame.
+  /// and its direction [rho; theta] in the body frame, rotations scaled as in WindowCondition.
   double smallest_eigenvalue = 0.0;
   Vector6d weak_direction = Vector6d::Zero();
   double last_step_m = 0.0;
