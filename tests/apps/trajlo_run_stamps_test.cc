@@ -263,7 +263,8 @@ TEST_F(StampsTest, ACutFileIsNamedAsSuch) {
                   fs::file_size(temp_ / "in/scans/000012.pcd") - 100);
   const Outcome outcome = RunAnew();
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("1 scans are damaged"), Not(HasSubstr("could not be read"))));
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("1 scans are damaged"), Not(HasSubstr("could not be read"))));
 }
 
 }  // namespace

@@ -52,6 +52,11 @@ TEST(InspectClouds, TellsStampsAtTheEndByTheTimeOfRecording) {
   EXPECT_NEAR(cloud.stamps.recorded_after_s->median, 0.002, 1e-9);
 }
 
+TEST(InspectClouds, FindsThatNothingTellsWhichEndStampsMark) {
+  const RecordingInspection found = Inspect({"/cloud"}, RegularMessages(8, 0));
+  EXPECT_THAT(FindingsOf(found.clouds[0]), Contains(HasSubstr("check input.stamp_at")));
+}
+
 TEST(InspectClouds, GivesThePhaseOfFurtherLidars) {
   std::vector<FakeMessage> messages;
   for (const FakeMessage& message : RegularMessages(8, 100 * kMs)) {
