@@ -53,7 +53,7 @@ constexpr char kHelp[] = R"(The same windows, and the same recording, by many so
       my_variants.yaml:
         variants:
           - {name: paper, set: "map.levels=1"}
-          - {name: wide, set: "map.levels=1,registration.max_kernel_m=1.0"}
+          - {name: wide, set: "map.levels=1,registration.kernel_m=1.0"}
 
 --input, --config and --set are those of trajlo_run (trajlo_run --show_config lists all keys).
 

@@ -29,8 +29,6 @@ void CheckConfig(const RunConfig& config) {
   const SegmenterOptions& segmenter = config.odometry.segmenter;
   const MapOptions& map = config.odometry.map.finest;
   const PlaneFitOptions& plane = config.odometry.map.plane;
-  const AdaptiveThresholdOptions& threshold = config.odometry.threshold;
-  const RegistrationOptions& registration = config.odometry.registration;
 
   RequireLess({"sensor.min_range_m", segmenter.min_range_m},
               {"sensor.max_range_m", segmenter.max_range_m}, "otherwise no point is left");
@@ -51,13 +49,6 @@ void CheckConfig(const RunConfig& config) {
   RequireAtMost({"map.plane.min_neighbors", static_cast<double>(plane.min_neighbors)},
                 {"map.plane.neighbors", static_cast<double>(plane.neighbors)},
                 "a query asks for `neighbors` points, and a plane needs `min_neighbors` of them");
-  RequireAtMost({"threshold.min_m", threshold.min_m}, {"threshold.initial_m", threshold.initial_m},
-                "the threshold starts within its bounds");
-  RequireAtMost({"threshold.initial_m", threshold.initial_m}, {"threshold.max_m", threshold.max_m},
-                "the threshold starts within its bounds");
-  RequireAtMost({"registration.min_kernel_m", registration.min_kernel_m},
-                {"registration.max_kernel_m", registration.max_kernel_m},
-                "the kernel's width lies between them");
 }
 
 }  // namespace trajlo

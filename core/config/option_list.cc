@@ -14,7 +14,6 @@ std::vector<Option> BindOptions(RunConfig* config) {
   BindInput(&config->input, &binder);
   BindSensing(&odometry->segmenter, &binder);
   BindMap(&odometry->map, &binder);
-  BindThreshold(&odometry->threshold, &binder);
   BindRegistration(&odometry->registration, &binder);
   BindMotionPrior(&odometry->motion_prior, &binder);
   BindSolver(&odometry->solver, &config->ceres_form, &binder);
@@ -32,8 +31,6 @@ std::string SectionDoc(const std::string& section) {
       {"segmenter", "How the stream of points is cut into segments and thinned."},
       {"map", "The local map that points are registered to."},
       {"map.plane", "When neighbours make a plane."},
-      {"threshold",
-       "How far off predictions are taken to be: it sets how wide the robust kernel is."},
       {"registration", "How the distance of a point to its plane is weighed."},
       {"motion_prior", "How freely the body is taken to move."},
       {"solver", "How a window is solved."},

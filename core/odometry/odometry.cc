@@ -19,10 +19,9 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
       sequencer_(options.segmenter.max_lag_s, [this](const LidarScan& scan) { CutSegments(scan); }),
       segmenter_(options.segmenter),
       map_(options.map),
-      threshold_(options.threshold),
       motion_prior_(options.motion_prior),
       solver_(make_solver(options.solver, &threads_)),
-      loss_watch_(options.lost, options.threshold.max_m) {}
+      loss_watch_(options.lost) {}
 
 void Odometry::AddScan(const LidarScan& scan) { sequencer_.Add(scan); }
 
@@ -88,14 +87,13 @@ void Odometry::Start(const SegmentCloud& cloud) {
 void Odometry::Step(SegmentCloud cloud) {
   PushSegment(std::move(cloud), options_.window.deskewing, &window_);
   motion_prior_.Apply(&window_);
-  window_.noise = MakeRegistrationNoise(
-      options_.registration, KernelWidth_m(options_.registration, threshold_.threshold_m()));
+  window_.noise = MakeRegistrationNoise(options_.registration);
   const std::vector<SE3> predicted = window_.Poses();
 
   WindowStatistics statistics;
   AssociateAndSolve(&statistics);
-  window_.is_believed =
-      statistics.is_finite && IsBelievable(predicted.back(), window_.Poses().back(), options_.lost);
+  statistics.SetCorrection(predicted.back(), window_.segments.back().T_world_end);
+  window_.is_believed = IsBelievable(statistics, options_.lost);
   if (window_.is_believed) {
     Learn(predicted.back());
   } else {
@@ -110,7 +108,6 @@ void Odometry::Step(SegmentCloud cloud) {
 
 /// Until the step is small: which planes the points belong to, and the poses that bring them there.
 void Odometry::AssociateAndSolve(WindowStatistics* s) {
-  s->threshold_m = threshold_.threshold_m();
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
     s->searched += AssociateWindow(map_, &threads_, &window_);
@@ -120,11 +117,10 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
   }
 }
 
-/// Thresholds and weights follow what this window showed.
+/// The weights follow what this window showed.
 void Odometry::Learn(const SE3& T_world_predicted) {
-  const Segment& newest = window_.segments.back();
-  threshold_.AddPredictionError(T_world_predicted.Inverse() * newest.T_world_end);
-  motion_prior_.Learn(MeasureInnovation(window_, T_world_predicted), newest.Duration_s());
+  motion_prior_.Learn(MeasureInnovation(window_, T_world_predicted),
+                      window_.segments.back().Duration_s());
 }
 
 /// The oldest segment leaves: its first pose is settled, its points enter the map.

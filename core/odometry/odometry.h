@@ -77,7 +77,6 @@ class Odometry {
   ScanSequencer sequencer_;
   Segmenter segmenter_;
   MapPyramid map_;
-  AdaptiveThreshold threshold_;
   MotionPrior motion_prior_;
   std::unique_ptr<WindowSolver> solver_;
   LossWatch loss_watch_;

@@ -6,7 +6,6 @@
 #include "core/odometry/sensing/segmenter.h"
 #include "core/odometry/solvers/solver_options.h"
 #include "core/odometry/start/initial_motion.h"
-#include "core/odometry/weights/adaptive_threshold.h"
 #include "core/odometry/weights/motion_prior.h"
 #include "core/odometry/weights/registration_options.h"
 #include "core/odometry/window/deskew.h"
@@ -27,7 +26,6 @@ struct OdometryOptions {
   SegmenterOptions segmenter;
   InitializationOptions initialization;
   MapPyramidOptions map;
-  AdaptiveThresholdOptions threshold;
   RegistrationOptions registration;
   MotionPriorOptions motion_prior;
   WindowOptions window;

@@ -28,8 +28,8 @@ CsvRow MakeRow(const WindowStatistics& w) {
   row.Add("cost_prior", w.cost_prior);
   row.Add("translation_density_m2_s3", w.translation_density_m2_s3);
   row.Add("rotation_density_rad2_s3", w.rotation_density_rad2_s3);
-  row.Add("threshold_m", w.threshold_m);
-  row.Add("kernel_m", w.kernel_m);
+  row.Add("correction_m", w.correction_m);
+  row.Add("correction_rad", w.correction_rad);
   row.Add("smallest_eigenvalue", w.smallest_eigenvalue);
   row.Add("weak_rho_x", w.weak_direction[0]);
   row.Add("weak_rho_y", w.weak_direction[1]);

@@ -11,7 +11,6 @@ class OptionBinder;
 void BindInput(RecordingOptions* input, OptionBinder* b);
 void BindSensing(SegmenterOptions* segmenter, OptionBinder* b);
 void BindMap(MapPyramidOptions* pyramid, OptionBinder* b);
-void BindThreshold(AdaptiveThresholdOptions* threshold, OptionBinder* b);
 void BindRegistration(RegistrationOptions* registration, OptionBinder* b);
 void BindMotionPrior(MotionPriorOptions* prior, OptionBinder* b);
 void BindSolver(SolverOptions* solver, CeresFormOptions* form, OptionBinder* b);

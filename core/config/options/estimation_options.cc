@@ -18,16 +18,9 @@ void BindEstimation(OdometryOptions* odometry, OptionBinder* b) {
          "What moves the points of a segment to one time: the estimated trajectory, in every "
          "iteration anew, or once the predicted motion (discrete poses and constant velocity, as "
          "in KISS-ICP; for comparison).");
-  InitializationOptions& initialization = odometry->initialization;
-  b->Add("initialization.estimate_motion", initialization.estimate_motion,
+  b->Add("initialization.estimate_motion", odometry->initialization.estimate_motion,
          "Estimates the motion during the first interval by registering its second half to its "
          "first one; false assumes a stationary start, as the paper does.");
-  b->Add("initialization.min_gain", initialization.min_gain, Range<double>{1.0, 100.0},
-         "The estimated motion is believed only if it brings this many times as many points onto "
-         "planes as standing still does ...");
-  b->Add("initialization.clear_motion_m", initialization.clear_motion_m, Range<double>{0.0, 1e3},
-         "... or simply more, where it is longer than this: at rest the estimate is off by "
-         "centimetres.");
   b->Add("lost.min_inlier_share", odometry->lost.min_inlier_share, Range<double>{0.0, 1.0},
          "The estimator is lost when fewer than this share of the points find a plane ...");
   b->Add("lost.max_duration_s", odometry->lost.max_duration_s, Range<double>{0.0, 1e6},
@@ -35,11 +28,8 @@ void BindEstimation(OdometryOptions* odometry, OptionBinder* b) {
   b->Add("lost.convergence_span_s", odometry->lost.convergence_span_s, Range<double>{0.0, 1e6},
          "... or when of all windows of this time ...");
   b->Add("lost.max_unconverged_share", odometry->lost.max_unconverged_share,
-         Range<double>{0.0, 1.0}, "... more than this share did not converge ...");
-  b->Add("lost.max_unconverged_share_at_full_threshold",
-         odometry->lost.max_unconverged_share_at_full_threshold, Range<double>{0.0, 1.0},
-         "... or more than this share, if all that time the adaptive threshold was at its upper "
-         "bound.");
+         Range<double>{0.0, 1.0},
+         "... more than this share did not converge, or half of this while predictions failed.");
   b->Add("lost.max_correction_m", odometry->lost.max_correction_m, Range<double>{1e-3, 1e3},
          "A solve that moves the newest pose farther than this from its prediction ...");
   b->Add("lost.max_correction_rad", odometry->lost.max_correction_rad, Range<double>{1e-3, 10.0},

@@ -18,36 +18,14 @@ const Names<MotionPriorKind> kMotionPriors = {
 
 }  // namespace
 
-void BindThreshold(AdaptiveThresholdOptions* threshold, OptionBinder* b) {
-  b->Add("threshold.adaptive", threshold->adaptive,
-         "Learn the threshold from how far predictions were off; false keeps initial_m.");
-  b->Add("threshold.initial_m", threshold->initial_m, Range<double>{1e-3, 100.0},
-         "Used until there is evidence.");
-  b->Add("threshold.min_m", threshold->min_m, Range<double>{1e-3, 100.0},
-         "Never smaller than this.");
-  b->Add("threshold.max_m", threshold->max_m, Range<double>{1e-3, 100.0},
-         "Never larger than this.");
-  b->Add("threshold.min_motion_m", threshold->min_motion_m, Range<double>{0.0, 10.0},
-         "Prediction errors below this say nothing about what is needed.");
-  b->Add("threshold.range_m", threshold->range_m, Range<double>{0.1, 1e3},
-         "Lever arm with which a rotation error counts.");
-  b->Add("threshold.forgetting", threshold->forgetting, Range<double>{1e-6, 1.0},
-         "Share of the newest error in the running mean of squares.");
-}
-
 void BindRegistration(RegistrationOptions* registration, OptionBinder* b) {
   b->Add("registration.sigma_m", registration->sigma_m, Range<double>{1e-4, 10.0},
          "Standard deviation of a point's distance to its plane.");
   b->Add("registration.points_per_error", registration->points_per_error, Range<double>{1.0, 1e6},
          "Points that hit the same surface share its error: so many count as one.");
   b->Add("registration.kernel", registration->kernel, kKernels, "Robust kernel on that distance.");
-  b->Add("registration.kernel_in_thresholds", registration->kernel_in_thresholds,
-         Range<double>{1e-3, 100.0},
-         "Width of the kernel: this share of the adaptive threshold, within the bounds below.");
-  b->Add("registration.min_kernel_m", registration->min_kernel_m, Range<double>{1e-3, 100.0},
-         "The kernel is never narrower.");
-  b->Add("registration.max_kernel_m", registration->max_kernel_m, Range<double>{1e-3, 100.0},
-         "The kernel is never wider.");
+  b->Add("registration.kernel_m", registration->kernel_m, Range<double>{1e-3, 100.0},
+         "Width of the kernel.");
 }
 
 void BindMotionPrior(MotionPriorOptions* prior, OptionBinder* b) {

@@ -5,11 +5,9 @@
 
 namespace trajlo {
 
-bool IsBelievable(const SE3& T_world_predicted, const SE3& T_world_estimated,
-                  const LostOptions& options) {
-  const SE3 correction = T_world_predicted.Inverse() * T_world_estimated;
-  return correction.t.norm() <= options.max_correction_m &&
-         so3::Log(correction.q).norm() <= options.max_correction_rad;
+bool IsBelievable(const WindowStatistics& statistics, const LostOptions& options) {
+  return statistics.is_finite && statistics.correction_m <= options.max_correction_m &&
+         statistics.correction_rad <= options.max_correction_rad;
 }
 
 void Revert(const std::vector<SE3>& poses, Window* window) {

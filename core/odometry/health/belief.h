@@ -6,9 +6,9 @@
 
 namespace trajlo {
 
-/// Whether the newest pose is no farther from its prediction than a sensor can have moved.
-bool IsBelievable(const SE3& T_world_predicted, const SE3& T_world_estimated,
-                  const LostOptions& options);
+/// Whether the solution is finite, and the newest pose no farther from its prediction than a sensor
+/// can have moved.
+bool IsBelievable(const WindowStatistics& statistics, const LostOptions& options);
 
 /// Puts the poses back to `poses`. The planes belong to poses that are not believed: the
 /// registration is forgotten.

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/loss_watch.h"
 
-#include <algorithm>
-
 namespace trajlo {
 namespace {
+
+/// Where predictions are off by this much (root mean square over the span), half as many unsettled
+/// windows are enough ...
+constexpr double kFailedPrediction_m = 1.4;
+/// ... a rotation counting with this lever arm.
+constexpr double kLeverArm_m = 20.0;
 
 std::int64_t Nanoseconds(double s) { return static_cast<std::int64_t>(s * 1e9); }
 
@@ -29,21 +33,21 @@ bool LossWatch::TooFewInliers(const WindowStatistics& window) {
 
 bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   const bool is_settled = (window.flags & (kFlagNotConverged | kFlagReverted)) == 0;
-  recent_.push_back({window.end_ns, is_settled, window.threshold_m >= full_threshold_m_});
+  const double correction_m = window.correction_m + kLeverArm_m * window.correction_rad;
+  recent_.push_back({window.end_ns, is_settled, correction_m * correction_m});
   unsettled_ += is_settled ? 0 : 1;
-  full_threshold_ += recent_.back().has_full_threshold ? 1 : 0;
   const std::int64_t begin_ns = window.end_ns - Nanoseconds(options_.convergence_span_s);
   while (recent_.front().end_ns < begin_ns) {
     unsettled_ -= recent_.front().is_settled ? 0 : 1;
-    full_threshold_ -= recent_.front().has_full_threshold ? 1 : 0;
     recent_.pop_front();
     span_is_full_ = true;
   }
-  const double max_share = full_threshold_ == recent_.size()
-                               ? std::min(options_.max_unconverged_share,
-                                          options_.max_unconverged_share_at_full_threshold)
-                               : options_.max_unconverged_share;
   const auto windows = static_cast<double>(recent_.size());
+  double squared_corrections_m2 = 0.0;
+  for (const Window& recent : recent_) squared_corrections_m2 += recent.squared_correction_m2;
+  const bool predictions_fail =
+      squared_corrections_m2 > kFailedPrediction_m * kFailedPrediction_m * windows;
+  const double max_share = (predictions_fail ? 0.5 : 1.0) * options_.max_unconverged_share;
   return span_is_full_ && static_cast<double>(unsettled_) > max_share * windows;
 }
 

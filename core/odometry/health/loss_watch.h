@@ -19,9 +19,6 @@ struct LostOptions {
   /// ... more than this share did not converge, or were reverted: planes that never settle are not
   /// those of the scene.
   double max_unconverged_share = 0.8;
-  /// ... or more than this share, if predictions failed all that time by as much as the adaptive
-  /// threshold allows.
-  double max_unconverged_share_at_full_threshold = 0.4;
   /// A solve that moves the newest pose farther than this from its prediction is not believed.
   double max_correction_m = 3.0;
   double max_correction_rad = 1.0;
@@ -34,9 +31,7 @@ struct LostOptions {
 /// and has many inliers; what gives it away is that its windows do not settle.
 class LossWatch {
  public:
-  /// `max_threshold_m` is the upper bound of the adaptive threshold.
-  LossWatch(const LostOptions& options, double max_threshold_m)
-      : options_(options), full_threshold_m_(0.95 * max_threshold_m) {}
+  explicit LossWatch(const LostOptions& options) : options_(options) {}
 
   /// Takes the next window; the time at which the loss began, if this window is lost.
   std::optional<std::int64_t> Update(const WindowStatistics& window);
@@ -45,17 +40,15 @@ class LossWatch {
   struct Window {
     std::int64_t end_ns;
     bool is_settled;
-    bool has_full_threshold;
+    double squared_correction_m2;
   };
   bool TooFewInliers(const WindowStatistics& window);
   bool TooFewSettled(const WindowStatistics& window);
 
   LostOptions options_;
-  double full_threshold_m_;
   std::optional<std::int64_t> few_since_ns_;
-  std::deque<Window> recent_;       ///< Those of the last convergence_span_s.
-  std::size_t unsettled_ = 0;       ///< Of these.
-  std::size_t full_threshold_ = 0;  ///< Of these.
+  std::deque<Window> recent_;  ///< Those of the last convergence_span_s.
+  std::size_t unsettled_ = 0;  ///< Of these.
   bool span_is_full_ = false;
 };
 

@@ -18,11 +18,16 @@ void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& optio
       solve.step.IsSmall(options) && (solve.iterations > 0 || solve.rejected_steps == 0);
 }
 
+void WindowStatistics::SetCorrection(const SE3& T_world_predicted, const SE3& T_world_estimated) {
+  const SE3 correction = T_world_predicted.Inverse() * T_world_estimated;
+  correction_m = correction.t.norm();
+  correction_rad = so3::Log(correction.q).norm();
+}
+
 void Describe(const Window& window, WindowStatistics* statistics) {
   statistics->begin_ns = window.begin_ns;
   statistics->end_ns = window.segments.back().cloud.end_ns;
   statistics->segments = window.size();
-  statistics->kernel_m = window.noise.kernel.width * window.noise.sigma_m;
   statistics->points = 0;
   statistics->inliers = 0;
   for (const Segment& segment : window.segments) {

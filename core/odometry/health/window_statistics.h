@@ -36,8 +36,9 @@ struct WindowStatistics {
   /// Spectral densities of the acceleration for the next window: see MotionPrior.
   double translation_density_m2_s3 = 0.0;
   double rotation_density_rad2_s3 = 0.0;
-  double threshold_m = 0.0;
-  double kernel_m = 0.0;
+  /// How far the points moved the newest pose from where the motion prior had put it.
+  double correction_m = 0.0;
+  double correction_rad = 0.0;
   /// Smallest eigenvalue of the registration information of the newest control poses, per point,
   /// and its direction [rho; theta] in the body frame, rotations scaled as in WindowCondition.
   double smallest_eigenvalue = 0.0;
@@ -55,6 +56,7 @@ struct WindowStatistics {
 
   /// One more round of the window.
   void Add(const SolveSummary& solve, const SolverOptions& options);
+  void SetCorrection(const SE3& T_world_predicted, const SE3& T_world_estimated);
 
   double InlierShare() const { return points > 0 ? static_cast<double>(inliers) / points : 0.0; }
 };

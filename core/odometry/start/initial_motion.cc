@@ -22,6 +22,12 @@ constexpr double kAgreementM = 0.05;
 /// A start faster than this is not expected; it only holds directions that nobody measures.
 constexpr double kPriorSigmaM = 10.0;
 constexpr double kPriorSigmaRad = 2.0;
+/// A motion is believed if it brings this many times as many points onto planes as standing still
+/// does ...
+constexpr double kMinGain = 1.15;
+/// ... or simply more, where it is longer than this: at rest the estimate is off by centimetres,
+/// and a street explains nearly as many points at any speed.
+constexpr double kClearMotion_m = 0.3;
 
 /// A search that comes back to rest has found it.
 constexpr double kAtRest_m = 0.1;
@@ -130,9 +136,10 @@ class FirstInterval {
     MapPyramidOptions map = map_options_;
     map.finest.voxel_size_m *= coarse;
     map.plane.max_thickness_m *= coarse;
-    const RegistrationNoise noise =
-        MakeRegistrationNoise(registration_, coarse * registration_.max_kernel_m);
-    return Hypothesis(cloud_, second_half_, tau, map, threads_).Linearize(noise);
+    RegistrationOptions registration = registration_;
+    registration.kernel_m *= coarse;
+    return Hypothesis(cloud_, second_half_, tau, map, threads_)
+        .Linearize(MakeRegistrationNoise(registration));
   }
 
   const SegmentCloud& cloud_;
@@ -184,8 +191,8 @@ Vector6d MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOp
                                const RegistrationOptions& registration, ThreadPool* threads) {
   if (!options.estimate_motion) return Vector6d::Zero();
   const InitialMotion motion = EstimateInitialMotion(cloud, map_options, registration, threads);
-  const bool is_clear = motion.tau.head<3>().norm() > options.clear_motion_m;
-  const double gain = is_clear ? 1.0 : options.min_gain;
+  const bool is_clear = motion.tau.head<3>().norm() > kClearMotion_m;
+  const double gain = is_clear ? 1.0 : kMinGain;
   const bool is_believed = motion.agreement > gain * motion.agreement_at_rest;
   return is_believed ? motion.tau : Vector6d(Vector6d::Zero());
 }

@@ -31,12 +31,6 @@ struct InitializationOptions {
   /// Estimates the motion during the first interval; otherwise a stationary start is assumed, as in
   /// the paper.
   bool estimate_motion = true;
-  /// The estimated motion is believed only if it brings this many times as many points onto planes
-  /// as standing still does ...
-  double min_gain = 1.15;
-  /// ... or simply more, where it is longer than this: at rest the estimate is off by centimetres,
-  /// and a street explains nearly as many points at any speed.
-  double clear_motion_m = 0.3;
 };
 
 /// The twist over the first interval [rho; theta] (m, rad): the estimated one if it is believed,

@@ -13,16 +13,11 @@ struct RegistrationOptions {
   /// Points that hit the same surface share the error of its plane: so many count as one.
   double points_per_error = 10.0;
   KernelKind kernel = KernelKind::kCauchy;
-  /// Width of the kernel: this share of the adaptive threshold, within the bounds below.
-  double kernel_in_thresholds = 0.33;
-  double min_kernel_m = 0.1;
-  double max_kernel_m = 0.1;
+  /// Width of the kernel.
+  double kernel_m = 0.1;
 };
 
-/// The noise with a kernel of `kernel_m`; errors that are shared make sigma larger.
-RegistrationNoise MakeRegistrationNoise(const RegistrationOptions& options, double kernel_m);
-
-/// The width of the kernel at an adaptive threshold.
-double KernelWidth_m(const RegistrationOptions& options, double threshold_m);
+/// What the factors take: errors that are shared make sigma larger.
+RegistrationNoise MakeRegistrationNoise(const RegistrationOptions& options);
 
 }  // namespace trajlo

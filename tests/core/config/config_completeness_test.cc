@@ -60,7 +60,6 @@ TEST(ConfigCompleteness, EveryFieldOfTheOptionsHasAKey) {
   // `finest` and `plane`.
   EXPECT_EQ(FieldCount<MapOptions>() + FieldCount<MapPyramidOptions>(), KeysIn("map") + 2);
   EXPECT_EQ(FieldCount<PlaneFitOptions>(), KeysIn("map.plane"));
-  EXPECT_EQ(FieldCount<AdaptiveThresholdOptions>(), KeysIn("threshold"));
   EXPECT_EQ(FieldCount<RegistrationOptions>(), KeysIn("registration"));
   EXPECT_EQ(FieldCount<MotionPriorOptions>(), KeysIn("motion_prior"));
   EXPECT_EQ(FieldCount<SolverOptions>(), KeysIn("solver"));
@@ -69,7 +68,7 @@ TEST(ConfigCompleteness, EveryFieldOfTheOptionsHasAKey) {
   EXPECT_EQ(FieldCount<WindowOptions>(), KeysIn("window"));
   EXPECT_EQ(FieldCount<InitializationOptions>(), KeysIn("initialization"));
   EXPECT_EQ(FieldCount<LostOptions>(), KeysIn("lost"));
-  EXPECT_EQ(FieldCount<OdometryOptions>(), 10 + KeysIn(""));  // Ten sections.
+  EXPECT_EQ(FieldCount<OdometryOptions>(), 9 + KeysIn(""));  // Nine sections.
   EXPECT_EQ(FieldCount<RecordingOptions>(), KeysIn("input"));
 }
 

@@ -29,12 +29,14 @@ TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
   LostOptions options;
   options.max_correction_m = 0.5;
   options.max_correction_rad = 0.2;
-  const SE3 predicted;
+  const SE3 predicted = se3::Exp(Vector6d::Constant(0.7));
   const auto at = [&](double x_m, double yaw_rad) {
     Vector6d tau = Vector6d::Zero();
     tau[0] = x_m;
     tau[5] = yaw_rad;
-    return IsBelievable(predicted, se3::Exp(tau), options);
+    WindowStatistics statistics;
+    statistics.SetCorrection(predicted, predicted * se3::Exp(tau));
+    return IsBelievable(statistics, options);
   };
   EXPECT_TRUE(at(0.4, 0.0));
   EXPECT_FALSE(at(0.6, 0.0));

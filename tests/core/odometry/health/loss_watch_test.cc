@@ -7,7 +7,6 @@ namespace trajlo {
 namespace {
 
 constexpr std::int64_t kWindow_ns = 30'000'000;
-constexpr double kMaxThreshold_m = 1.5;
 
 WindowStatistics Window(int index, int inliers, unsigned flags = 0) {
   WindowStatistics window;
@@ -19,7 +18,7 @@ WindowStatistics Window(int index, int inliers, unsigned flags = 0) {
 }
 
 TEST(LossWatch, IsNotLostByAShortLackOfInliers) {
-  LossWatch watch({}, kMaxThreshold_m);
+  LossWatch watch({});
   for (int i = 0; i < 300; ++i) {
     const bool blind = i % 34 != 0;  // 0.99 s at a time.
     EXPECT_FALSE(watch.Update(Window(i, blind ? 2 : 90))) << i;
@@ -27,7 +26,7 @@ TEST(LossWatch, IsNotLostByAShortLackOfInliers) {
 }
 
 TEST(LossWatch, IsLostSinceTheInliersWentAway) {
-  LossWatch watch({}, kMaxThreshold_m);
+  LossWatch watch({});
   for (int i = 0; i < 50; ++i) ASSERT_FALSE(watch.Update(Window(i, 90)));
   for (int i = 50; i < 84; ++i) ASSERT_FALSE(watch.Update(Window(i, 2))) << i;
   const auto since_ns = watch.Update(Window(84, 2));
@@ -38,7 +37,7 @@ TEST(LossWatch, IsLostSinceTheInliersWentAway) {
 
 TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
   for (const unsigned flag : {kFlagNotConverged, kFlagReverted}) {
-    LossWatch watch({}, kMaxThreshold_m);
+    LossWatch watch({});
     // Every seventh settles: no unbroken spell, and yet lost after the span.
     int first_lost = -1;
     for (int i = 0; i < 200 && first_lost < 0; ++i) {
@@ -52,20 +51,20 @@ TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
 }
 
 TEST(LossWatch, AsksForMoreWindowsThatSettleWhilePredictionsFail) {
-  for (const double threshold_m : {0.5, 1.5}) {
-    LossWatch watch({}, kMaxThreshold_m);
+  for (const double correction_m : {0.5, 1.5}) {
+    LossWatch watch({});
     bool is_lost = false;
     for (int i = 0; i < 200; ++i) {
       WindowStatistics window = Window(i, 95, i % 2 == 0 ? 0u : kFlagNotConverged);
-      window.threshold_m = threshold_m;
+      window.correction_m = correction_m;
       is_lost |= watch.Update(window).has_value();
     }
-    EXPECT_EQ(is_lost, threshold_m == kMaxThreshold_m);
+    EXPECT_EQ(is_lost, correction_m > 1.0);
   }
 }
 
 TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
-  LossWatch watch({}, kMaxThreshold_m);
+  LossWatch watch({});
   for (int i = 0; i < 300; ++i) {
     EXPECT_FALSE(watch.Update(Window(i, 95, i % 2 == 0 ? 0u : kFlagNotConverged)));
   }
