@@ -44,32 +44,42 @@ std::uint32_t VoxelHashMap::NewBlock(const VoxelKey& key) {
   return block;
 }
 
-VoxelHashMap::Block* VoxelHashMap::BlockFor(VoxelIndex::Entry* entry, const VoxelKey& key,
-                                            const Eigen::Vector3f& p) {
+bool VoxelHashMap::HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) const {
   const auto squared_spacing = static_cast<float>(spacing_ * spacing_);
-  int count = 0;
-  std::uint32_t last = VoxelIndex::kNoBlock;
-  for (std::uint32_t b = entry->block; b < kNoNext; b = blocks_[b].next) {
-    const Block& block = blocks_[b];
-    for (std::uint32_t i = 0; i < block.count; ++i) {
-      const Eigen::Vector3f q(block.x[i], block.y[i], block.z[i]);
-      if ((p - q).squaredNorm() < squared_spacing) return nullptr;
+  std::uint32_t count = 0;
+  for (std::uint32_t b = block; b < kNoNext; b = blocks_[b].next) {
+    const Block& points = blocks_[b];
+    bool is_near = false;
+    for (std::uint32_t i = 0; i < Block::kCapacity; ++i) {
+      const float x = points.x[i] - p.x(), y = points.y[i] - p.y(), z = points.z[i] - p.z();
+      is_near |= (i < points.count) & (x * x + y * y + z * z < squared_spacing);
     }
-    count += static_cast<int>(block.count);
-    last = b;
+    if (is_near) return false;
+    count += points.count;
   }
-  if (count >= kMaxPointsPerVoxel) return nullptr;
-  if (last == VoxelIndex::kNoBlock) {
-    entry->block = last = NewBlock(key);
-  } else if (blocks_[last].count == Block::kCapacity) {
+  return count < kMaxPointsPerVoxel;
+}
+
+void VoxelHashMap::Append(const VoxelKey& key, const Eigen::Vector3f& p) {
+  VoxelIndex::Entry* entry = index_.FindOrAdd(key);
+  if (entry->block == VoxelIndex::kNoBlock) entry->block = NewBlock(key);
+  std::uint32_t last = entry->block;
+  while (blocks_[last].next != kNoNext) last = blocks_[last].next;
+  if (blocks_[last].count == Block::kCapacity) {
     const std::uint32_t next = NewBlock(key);
     blocks_[last].next = next;
     last = next;
   }
-  return &blocks_[last];
+  Block& points = blocks_[last];
+  points.x[points.count] = p.x();
+  points.y[points.count] = p.y();
+  points.z[points.count] = p.z();
+  ++points.count;
+  ++point_count_;
 }
 
-void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
+void VoxelHashMap::AddAround(const VoxelKey& key) {
+  VoxelIndex::Entry* entry = index_.FindOrAdd(key);
   ++entry->points_around;
   if (entry->points_around != points_of_site_) return;
   if (free_sites_.empty()) {
@@ -83,23 +93,12 @@ void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
   }
 }
 
-bool VoxelHashMap::Place(const VoxelKey& key, const Eigen::Vector3d& point_world) {
-  const Eigen::Vector3f p = (point_world - CornerOf(key)).cast<float>();
-  Block* block = BlockFor(index_.FindOrAdd(key), key, p);
-  if (block == nullptr) return false;
-  block->x[block->count] = p.x();
-  block->y[block->count] = p.y();
-  block->z[block->count] = p.z();
-  ++block->count;
-  ++point_count_;
-  return true;
-}
-
 void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
                           std::vector<Eigen::Vector3d>* accepted) {
   // In steps, each of which fetches ahead what the next one reads.
   constexpr std::size_t kBatch = 32;
   std::array<VoxelKey, kBatch> keys;
+  std::array<std::uint32_t, kBatch> blocks;
   for (std::size_t first = 0; first < points_world.size(); first += kBatch) {
     const std::size_t count = std::min(kBatch, points_world.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
@@ -107,34 +106,37 @@ void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
       index_.Prefetch(keys[i]);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const VoxelIndex::Entry* entry = index_.Find(keys[i]);
-      if (entry != nullptr && entry->block != VoxelIndex::kNoBlock) {
-        __builtin_prefetch(&blocks_[entry->block]);
-      }
+      blocks[i] = BlockOf(keys[i]);
+      if (blocks[i] != VoxelIndex::kNoBlock) __builtin_prefetch(&blocks_[blocks[i]]);
     }
     std::size_t placed = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d& point = points_world[first + i];
-      if (!Place(keys[i], point)) continue;
+      const Eigen::Vector3f p = (point - CornerOf(keys[i])).cast<float>();
+      // A point before it may have been the first of its voxel.
+      if (blocks[i] == VoxelIndex::kNoBlock) blocks[i] = BlockOf(keys[i]);
+      if (!HasRoomFor(blocks[i], p)) continue;
+      Append(keys[i], p);
       if (accepted != nullptr) accepted->push_back(point);
       for (const VoxelKey& face : kFaces) index_.Prefetch(keys[i] + face);
       keys[placed++] = keys[i];
     }
     for (std::size_t i = 0; i < placed; ++i) {
-      AddAround(index_.FindOrAdd(keys[i]));
-      for (const VoxelKey& face : kFaces) AddAround(index_.FindOrAdd(keys[i] + face));
+      AddAround(keys[i]);
+      for (const VoxelKey& face : kFaces) AddAround(keys[i] + face);
     }
   }
 }
 
 void VoxelHashMap::DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed) {
   std::uint32_t points = 0;
-  for (std::uint32_t b = index_.Find(key)->block; b < kNoNext; b = blocks_[b].next) {
+  VoxelIndex::Entry* dropped = index_.FindOrAdd(key);
+  for (std::uint32_t b = dropped->block; b < kNoNext; b = blocks_[b].next) {
     points += blocks_[b].count;
     blocks_[b].count = 0;
     free_blocks_.push_back(b);
   }
-  index_.FindOrAdd(key)->block = VoxelIndex::kNoBlock;
+  dropped->block = VoxelIndex::kNoBlock;
   point_count_ -= points;
   const auto release = [&](const VoxelKey& near) {
     VoxelIndex::Entry* entry = index_.FindOrAdd(near);
@@ -167,6 +169,11 @@ void VoxelHashMap::RemoveFar(const Eigen::Vector3d& center_world,
   }
 }
 
+std::uint32_t VoxelHashMap::BlockOf(const VoxelKey& key) const {
+  const VoxelIndex::Entry* entry = index_.Find(key);
+  return entry != nullptr ? entry->block : VoxelIndex::kNoBlock;
+}
+
 void VoxelHashMap::Gather(std::uint32_t block, const Eigen::Vector3f& shift,
                           const Eigen::Vector3f& query, Candidates* candidates) const {
   for (; block < kNoNext; block = blocks_[block].next) {
@@ -190,25 +197,20 @@ void VoxelHashMap::Gather(std::uint32_t block, const Eigen::Vector3f& shift,
 void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const {
   neighbors->count = 0;
   const VoxelKey key = KeyOf(query_world);
-  const VoxelIndex::Entry* entries[7];
   for (const VoxelKey& face : kFaces) index_.Prefetch(key + face);
-  entries[0] = index_.Find(key);
-  if (entries[0] == nullptr) return;
-  for (int i = 0; i < 6; ++i) entries[1 + i] = index_.Find(key + kFaces[i]);
-  for (const VoxelIndex::Entry* entry : entries) {
-    if (entry != nullptr && entry->block != VoxelIndex::kNoBlock) {
-      __builtin_prefetch(&blocks_[entry->block]);
-    }
+  std::uint32_t blocks[7] = {BlockOf(key)};
+  for (int i = 0; i < 6; ++i) blocks[1 + i] = BlockOf(key + kFaces[i]);
+  for (const std::uint32_t block : blocks) {
+    if (block != VoxelIndex::kNoBlock) __builtin_prefetch(&blocks_[block]);
   }
 
   const Eigen::Vector3d corner = CornerOf(key);
   const Eigen::Vector3f query = (query_world - corner).cast<float>();
   const auto size = static_cast<float>(voxel_size_);
   Candidates candidates;
-  Gather(entries[0]->block, Eigen::Vector3f::Zero(), query, &candidates);
+  Gather(blocks[0], Eigen::Vector3f::Zero(), query, &candidates);
   for (int i = 0; i < 6; ++i) {
-    if (entries[1 + i] == nullptr) continue;
-    Gather(entries[1 + i]->block, size * kFaces[i].cast<float>(), query, &candidates);
+    Gather(blocks[1 + i], size * kFaces[i].cast<float>(), query, &candidates);
   }
   neighbors->origin_world = corner;
   TakeNearest(candidates, std::min(k, kMaxNeighbors), neighbors);
