@@ -9,10 +9,10 @@
 namespace trajlo {
 namespace {
 
-WindowCost CostOf(const Window& window, RegistrationEvaluator* evaluator) {
+WindowCost CostOf(Window window, RegistrationEvaluator* evaluator) {
   const std::vector<SE3> poses = window.Poses();
   std::vector<RegistrationNormalEquations> registration;
-  evaluator->Evaluate(window, poses, false, &registration);
+  evaluator->Evaluate(&window, poses, false, &registration);
   WindowCost cost = CostWithoutRegistration(window, poses);
   for (const auto& segment : registration) cost.registration += segment.cost;
   return cost;
@@ -32,8 +32,7 @@ LockstepSolver::LockstepSolver(const std::vector<SolverVariant>& variants,
   for (const SolverVariant& variant : variants) {
     SolverOptions solver = variant.odometry.solver;
     solver.iterations_per_round = options.max_iterations;
-    solver.step_tolerance_m = options.step_tolerance_m;
-    solver.step_tolerance_rad = options.step_tolerance_rad;
+    solver.step_tolerance = options.step_tolerance;
     solvers_.push_back(MakeSolverFactory(variant.ceres_form)(solver, threads));
   }
 }
@@ -61,6 +60,7 @@ void LockstepSolver::Compare(const Window& window) {
     const OdometryOptions& odometry = variants_[record.variant].odometry;
     Window own = window;
     own.noise.kernel.kind = odometry.registration.kernel;
+    for (Segment& segment : own.segments) segment.linearization.reset();
     own.prior.first_estimate_jacobians = odometry.marginalization.first_estimate_jacobians;
     Stopwatch watch;
     record.summary = solvers_[record.variant]->Solve(&own);

@@ -27,8 +27,7 @@ struct LockstepRecord {
 struct LockstepOptions {
   /// Each window is solved until the steps are this small, so that solutions can be compared.
   int max_iterations = 30;
-  double step_tolerance_m = 1e-9;
-  double step_tolerance_rad = 1e-10;
+  StepTolerance step_tolerance = {1e-9, 1e-10};
   /// Every so many windows are compared.
   int every = 1;
 };

@@ -110,7 +110,7 @@ void Odometry::Step(SegmentCloud cloud) {
 void Odometry::AssociateAndSolve(WindowStatistics* s) {
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
-    s->searched += AssociateWindow(map_, &threads_, &window_);
+    s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, &window_);
     s->milliseconds_associate += watch.Milliseconds();
     s->Add(solver_->Solve(&window_), options_.solver);
     s->milliseconds_solve += watch.Milliseconds();

@@ -32,7 +32,7 @@ void CeresForm(benchmark::State& state, RegistrationForm registration) {
   ThreadPool threads(1);
   SolverOptions options;
   options.iterations_per_round = kIterations;
-  options.step_tolerance_m = options.step_tolerance_rad = 0.0;
+  options.step_tolerance = {0.0, 0.0};
   GaussNewtonSolver gauss_newton(options, &threads);
   CeresFormOptions form;
   form.registration = registration;

@@ -17,7 +17,7 @@ double SecondsPerSolve(const Window& window, SolverKind kind, int repeats) {
   SolverOptions options;
   options.kind = kind;
   options.iterations_per_round = 5;
-  options.step_tolerance_m = options.step_tolerance_rad = 0.0;
+  options.step_tolerance = {0.0, 0.0};
   const auto solver = MakeWindowSolver(options, &threads);
   double seconds = 0.0;
   for (int i = 0; i < repeats; ++i) {

@@ -43,8 +43,7 @@ ceres::Solver::Options MakeSolverOptions(const CeresFormOptions& form, int steps
 
 /// One solve: the blocks of one window.
 struct FormProblem {
-  FormProblem(const Window& of, const CeresFormOptions& form, int steps,
-              RegistrationEvaluator* evaluator)
+  FormProblem(Window& of, const CeresFormOptions& form, int steps, RegistrationEvaluator* evaluator)
       : window(of),
         blocks(of.segments.size() + 1),
         prepare(&blocks, evaluator),
@@ -118,7 +117,7 @@ struct FormProblem {
     }
   }
 
-  const Window& window;
+  Window& window;
   PoseBlocks blocks;
   PrepareRegistration prepare;
   SE3Manifold manifold;
@@ -142,7 +141,7 @@ SolveSummary CeresFormSolver::Solve(Window* window) {
   AcceptSolution(start, solution, ceres_summary, window, &summary);
   if (!summary.finite) return summary;
   std::vector<RegistrationNormalEquations> registration;
-  evaluator_.Evaluate(*window, solution, true, &registration);
+  evaluator_.Evaluate(window, solution, true, &registration);
   for (std::size_t k = 0; k < registration.size(); ++k) {
     window->segments[k].registration = registration[k];
   }

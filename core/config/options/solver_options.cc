@@ -32,9 +32,9 @@ void BindSolver(SolverOptions* solver, CeresFormOptions* form, OptionBinder* b) 
          "At most this many rounds of association and solve a window.");
   b->Add("solver.iterations_per_round", solver->iterations_per_round, Range<int>{1, 1000},
          "At most this many solver iterations in each round.");
-  b->Add("solver.step_tolerance_m", solver->step_tolerance_m, Range<double>{0.0, 1.0},
+  b->Add("solver.step_tolerance_m", solver->step_tolerance.translation_m, Range<double>{0.0, 1.0},
          "The rounds end when no control pose moved by more than this ...");
-  b->Add("solver.step_tolerance_rad", solver->step_tolerance_rad, Range<double>{0.0, 1.0},
+  b->Add("solver.step_tolerance_rad", solver->step_tolerance.rotation_rad, Range<double>{0.0, 1.0},
          "... and turned by no more than this.");
   b->Add("solver.ceres.registration", form->registration, kRegistrationForms,
          "How the registration enters Ceres: 13 condensed rows a segment, computed in parallel or "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/window_statistics.h"
 
+#include <algorithm>
+
 namespace trajlo {
 
 void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& options) {
@@ -10,12 +12,18 @@ void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& optio
   cost_registration = solve.cost.registration;
   cost_motion = solve.cost.motion;
   cost_prior = solve.cost.prior;
+  // Steps shrink by a constant factor at least, which the last two of them show.
+  StepSize next = solve.step;
+  if (rounds > 1) {
+    next.translation_m *= std::min(1.0, solve.step.translation_m / last_step_m);
+    next.rotation_rad *= std::min(1.0, solve.step.rotation_rad / last_step_rad);
+  }
   last_step_m = solve.step.translation_m;
   last_step_rad = solve.step.rotation_rad;
   is_finite = solve.finite;
   // Where every step was rejected, the window is as unsolved as before.
   has_converged =
-      solve.step.IsSmall(options) && (solve.iterations > 0 || solve.rejected_steps == 0);
+      next.IsWithin(options.step_tolerance) && (solve.iterations > 0 || solve.rejected_steps == 0);
 }
 
 void WindowStatistics::SetCorrection(const SE3& T_world_predicted, const SE3& T_world_estimated) {

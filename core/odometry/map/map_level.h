@@ -42,6 +42,13 @@ class MapLevel {
   /// coordinates.
   VoxelKey CellOf(const Eigen::Vector3d& p) const { return VoxelAt(p, inverse_cell_size_); }
 
+  /// Whether a place is in a cell, or outside by at most a quarter of its edge.
+  bool IsAround(const Eigen::Vector3d& p, const VoxelKey& cell) const {
+    const Eigen::Array3d from_center =
+        p.array() * inverse_cell_size_ - (cell.cast<double>().array() + 0.5);
+    return from_center.abs().maxCoeff() <= 0.75;
+  }
+
   /// Where the planes of a cell refer to, if they are shared.
   Eigen::Vector3d CenterOf(const VoxelKey& cell) const {
     return cell_size_ * (cell.cast<double>().array() + 0.5);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <vector>
 
@@ -55,6 +56,12 @@ class MapPyramid {
   VoxelKey CellOf(const Eigen::Vector3d& place_world) const {
     return levels_.front().CellOf(place_world);
   }
+  /// Whether a place is in a cell of the finest level, or hardly outside.
+  bool IsAround(const Eigen::Vector3d& place_world, const VoxelKey& cell) const {
+    return levels_.front().IsAround(place_world, cell);
+  }
+  /// Another number after each insertion.
+  std::int64_t version() const { return version_; }
   /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
   /// taken only where there is no other. A plane that is not wide and thin has its weight divided
   /// by the ratio of its level.
@@ -73,6 +80,7 @@ class MapPyramid {
   bool IsWideAndThin(const FittedPlane& plane, const Eigen::Vector3f& place_from_center) const;
 
   PlaneFitOptions plane_;
+  std::int64_t version_ = 0;
   std::deque<MapLevel> levels_;
 };
 

@@ -119,7 +119,7 @@ class CeresSolver::LivingProblem {
 };
 
 CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
-    : options_(options), evaluator_(threads) {}
+    : options_(options), evaluator_(threads, options.step_tolerance) {}
 CeresSolver::~CeresSolver() = default;
 
 SolveSummary CeresSolver::Solve(Window* window) {

@@ -23,7 +23,7 @@ ceres::CallbackReturnType StopAfterSteps::operator()(const ceres::IterationSumma
   costs_.push_back(iteration.cost);
   const std::vector<SE3> now = state_->Poses();
   const bool is_done = static_cast<int>(costs_.size()) > options_.iterations_per_round ||
-                       MeasureStep(before_, now).IsSmall(options_);
+                       MeasureStep(before_, now).IsWithin(options_.step_tolerance);
   before_ = now;
   return is_done ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
 }

@@ -15,7 +15,7 @@ SolveSummary GaussNewtonSolver::Solve(Window* window) {
   bool is_small = false;
   while (summary.iterations < options_.iterations_per_round && !is_small) {
     Stopwatch watch;
-    evaluator_.Evaluate(*window, poses, true, &registration_);
+    evaluator_.Evaluate(window, poses, true, &registration_);
     AssembleWindow(*window, poses, registration_, &equations_);
     summary.costs.push_back(equations_.cost.Total());
     summary.evaluate_s += watch.Seconds();
@@ -30,7 +30,7 @@ SolveSummary GaussNewtonSolver::Solve(Window* window) {
       poses[k] = Plus(before[k], xi.segment<6>(6 * static_cast<Eigen::Index>(k)));
     }
     ++summary.iterations;
-    is_small = MeasureStep(before, poses).IsSmall(options_);
+    is_small = MeasureStep(before, poses).IsWithin(options_.step_tolerance);
   }
   summary.step = MeasureStep(start, poses);
   window->SetPoses(poses);

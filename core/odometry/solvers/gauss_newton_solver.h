@@ -10,7 +10,7 @@ namespace trajlo {
 class GaussNewtonSolver final : public WindowSolver {
  public:
   GaussNewtonSolver(const SolverOptions& options, ThreadPool* threads)
-      : options_(options), evaluator_(threads) {}
+      : options_(options), evaluator_(threads, options.step_tolerance) {}
 
   SolveSummary Solve(Window* window) override;
 

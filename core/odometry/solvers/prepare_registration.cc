@@ -5,7 +5,7 @@
 
 namespace trajlo {
 
-void PrepareRegistration::Begin(const Window* window, int steps) {
+void PrepareRegistration::Begin(Window* window, int steps) {
   window_ = window;
   linearize_steps_ = steps > 1;
   linearized_at_.clear();
@@ -14,14 +14,14 @@ void PrepareRegistration::Begin(const Window* window, int steps) {
 void PrepareRegistration::PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) {
   const std::vector<SE3> poses = blocks_->Poses();
   if (new_evaluation_point && (linearize_steps_ || linearized_at_.empty())) {
-    evaluator_->Evaluate(*window_, poses, true, &linearized_);
+    evaluator_->Evaluate(window_, poses, true, &linearized_);
     linearized_at_ = poses;
     std::copy(linearized_.begin(), linearized_.end(), equations_.begin());
     return;
   }
   if (new_evaluation_point) {
     std::vector<RegistrationNormalEquations> costs;
-    evaluator_->Evaluate(*window_, poses, false, &costs);
+    evaluator_->Evaluate(window_, poses, false, &costs);
     std::copy(costs.begin(), costs.end(), equations_.begin());
   }
   if (evaluate_jacobians) ShiftTo(poses);

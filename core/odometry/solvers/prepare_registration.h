@@ -22,7 +22,7 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
       : blocks_(blocks), evaluator_(evaluator) {}
 
   /// A new solve begins; `window` must outlive it.
-  void Begin(const Window* window, int steps);
+  void Begin(Window* window, int steps);
 
   void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override;
 
@@ -40,7 +40,7 @@ class PrepareRegistration final : public ceres::EvaluationCallback {
 
   const PoseBlocks* blocks_;
   RegistrationEvaluator* evaluator_;
-  const Window* window_ = nullptr;
+  Window* window_ = nullptr;
   bool linearize_steps_ = false;
   std::vector<RegistrationNormalEquations> equations_;
   /// The newest linearisation, and where.

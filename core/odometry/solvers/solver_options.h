@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/odometry/window/step_size.h"
+
 namespace trajlo {
 
 enum class SolverKind { kCeres, kGaussNewton };
@@ -11,9 +13,8 @@ struct SolverOptions {
   int max_rounds = 8;
   /// At most this many solver steps in each round.
   int iterations_per_round = 1;
-  /// The rounds end when no control pose moved by more than these.
-  double step_tolerance_m = 1e-3;
-  double step_tolerance_rad = 1e-4;
+  /// The rounds end when no control pose moves by more.
+  StepTolerance step_tolerance;
 };
 
 }  // namespace trajlo

@@ -12,17 +12,6 @@
 
 namespace trajlo {
 
-/// How far the control poses of a window moved, at most.
-struct StepSize {
-  double translation_m = 0.0;
-  double rotation_rad = 0.0;
-
-  bool IsSmall(const SolverOptions& options) const {
-    return translation_m < options.step_tolerance_m && rotation_rad < options.step_tolerance_rad;
-  }
-};
-StepSize MeasureStep(const std::vector<SE3>& start, const std::vector<SE3>& end);
-
 struct SolveSummary {
   int iterations = 0;      ///< Steps that were taken.
   int rejected_steps = 0;  ///< Steps that Ceres did not take because they raise the cost.

@@ -55,7 +55,7 @@ class Hypothesis {
     }
     MapPyramid map(map_options);
     map.Insert(first_half);
-    SegmentAssociation().Associate(second_half, cloud.lidar_origins_body_m, SE3(), T_end_, map,
+    SegmentAssociation().Associate(second_half, cloud.lidar_origins_body_m, SE3(), T_end_, map, {},
                                    threads, &points_with_plane_);
   }
 

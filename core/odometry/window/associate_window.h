@@ -8,7 +8,9 @@
 namespace trajlo {
 
 /// Finds the planes of all points of the window, each at its own time on the present poses; those
-/// that are still in the same cell of the map keep theirs. Returns the number of look-ups.
-int AssociateWindow(const MapPyramid& map, ThreadPool* threads, Window* window);
+/// that are still in the same cell of the map keep theirs, and so do segments that have not moved.
+/// Returns the number of look-ups.
+int AssociateWindow(const MapPyramid& map, const StepTolerance& tolerance, ThreadPool* threads,
+                    Window* window);
 
 }  // namespace trajlo

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace trajlo {
 namespace {
@@ -40,11 +41,10 @@ void ToWorld(const SegmentMotion& motion, const SegmentPoint* points, std::size_
 
 }  // namespace
 
-/// Looks up planes for those of at most kBatch points that have none or are in another cell than
-/// before; returns how many they were.
+/// Looks up planes for those of at most kBatch points that need one; returns how many they were.
 int SegmentAssociation::Renew(const SegmentPoint* points, std::size_t count,
                               const SegmentMotion& motion, const std::vector<LidarPath>& lidars,
-                              const MapPyramid& map, Entry* entries) {
+                              const MapPyramid& map, bool has_grown, Entry* entries) {
   std::array<Eigen::Vector3d, kBatch> places;
   ToWorld(motion, points, count, &places);
   std::array<PlaneQuery, kBatch> queries;
@@ -52,9 +52,9 @@ int SegmentAssociation::Renew(const SegmentPoint* points, std::size_t count,
   std::array<std::size_t, kBatch> asking;
   std::size_t asked = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const VoxelKey cell = map.CellOf(places[i]);
-    if (cell == entries[i].cell && entries[i].plane.exists()) continue;
-    entries[i].cell = cell;
+    const bool may_have_one = entries[i].plane.exists() || !has_grown;
+    if (may_have_one && map.IsAround(places[i], entries[i].cell)) continue;
+    entries[i].cell = map.CellOf(places[i]);
     const LidarPath& lidar = lidars[points[i].lidar];
     const Eigen::Vector3d origin = lidar.begin_world + points[i].alpha * lidar.way_world;
     queries[asked] = {places[i], (places[i] - origin).cast<float>()};
@@ -68,7 +68,13 @@ int SegmentAssociation::Renew(const SegmentPoint* points, std::size_t count,
 int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
                                   const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
                                   const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
-                                  ThreadPool* threads, std::vector<RegistrationPoint>* associated) {
+                                  const StepTolerance& tolerance, ThreadPool* threads,
+                                  std::vector<RegistrationPoint>* associated) {
+  const bool is_first = entries_.empty();
+  if (!is_first && AreNear(T_begin, T_end, T_begin_, T_end_, tolerance)) return 0;
+  T_begin_ = T_begin;
+  T_end_ = T_end;
+  const bool has_grown = std::exchange(map_version_, map.version()) != map.version();
   entries_.resize(points.size());
   const SegmentMotion motion(T_begin, T_end);
   std::vector<LidarPath> lidars;
@@ -80,7 +86,7 @@ int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
   threads->ParallelFor(chunks, [&](std::size_t chunk) {
     const std::size_t first = chunk * kBatch;
     chunk_searched_[chunk] = Renew(&points[first], std::min(kBatch, points.size() - first), motion,
-                                   lidars, map, &entries_[first]);
+                                   lidars, map, has_grown, &entries_[first]);
   });
   int searched = 0;
   for (const int count : chunk_searched_) searched += count;

@@ -5,23 +5,31 @@
 
 namespace trajlo {
 
-void RegistrationEvaluator::Evaluate(const Window& window, const std::vector<SE3>& poses,
-                                     bool jacobians,
+bool RegistrationEvaluator::IsKnown(const Window& window, const std::vector<SE3>& poses,
+                                    std::size_t k) const {
+  const auto& known = window.segments[k].linearization;
+  return known &&
+         AreNear(known->T_world_begin, known->T_world_end, poses[k], poses[k + 1], tolerance_);
+}
+
+void RegistrationEvaluator::Evaluate(Window* window, const std::vector<SE3>& poses, bool jacobians,
                                      std::vector<RegistrationNormalEquations>* equations) {
   constexpr std::size_t kChunk = 256;
+  const std::size_t segments = window->segments.size();
   std::vector<SegmentLinearizer> linearizers;
-  linearizers.reserve(window.segments.size());
+  linearizers.reserve(segments);
   chunks_.clear();
-  for (std::size_t k = 0; k < window.segments.size(); ++k) {
-    linearizers.emplace_back(poses[k], poses[k + 1], window.noise);
-    const std::size_t count = window.segments[k].points.size();
+  for (std::size_t k = 0; k < segments; ++k) {
+    linearizers.emplace_back(poses[k], poses[k + 1], window->noise);
+    if (IsKnown(*window, poses, k)) continue;
+    const std::size_t count = window->segments[k].points.size();
     for (std::size_t first = 0; first < count; first += kChunk) {
       chunks_.push_back({k, first, std::min(kChunk, count - first), {}});
     }
   }
   threads_->ParallelFor(chunks_.size(), [&](std::size_t i) {
     Chunk& chunk = chunks_[i];
-    const RegistrationPoint* points = window.segments[chunk.segment].points.data() + chunk.first;
+    const RegistrationPoint* points = window->segments[chunk.segment].points.data() + chunk.first;
     const SegmentLinearizer& linearizer = linearizers[chunk.segment];
     if (jacobians) {
       chunk.sum = linearizer.Linearize(points, chunk.count);
@@ -29,26 +37,37 @@ void RegistrationEvaluator::Evaluate(const Window& window, const std::vector<SE3
       chunk.sum.cost = linearizer.Cost(points, chunk.count);
     }
   });
-  std::vector<SegmentLinearizer::Sum> sums(window.segments.size());
+  std::vector<SegmentLinearizer::Sum> sums(segments);
   for (const Chunk& chunk : chunks_) sums[chunk.segment].Add(chunk.sum);
-  equations->assign(window.segments.size(), {});
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (jacobians) {
-      (*equations)[k] = linearizers[k].Finish(sums[k]);
+  equations->assign(segments, {});
+  for (std::size_t k = 0; k < segments; ++k) {
+    RegistrationNormalEquations& result = (*equations)[k];
+    std::optional<LinearizedRegistration>& known = window->segments[k].linearization;
+    if (IsKnown(*window, poses, k)) {
+      result = known->equations;
+      Vector12d xi;
+      xi << Minus(poses[k], known->T_world_begin), Minus(poses[k + 1], known->T_world_end);
+      ShiftRegistration(xi, &result);
+    } else if (jacobians) {
+      result = linearizers[k].Finish(sums[k]);
+      known = {poses[k], poses[k + 1], result};
     } else {
-      (*equations)[k].cost = sums[k].cost;
+      result.cost = sums[k].cost;
     }
   }
+}
+
+void ShiftRegistration(const Vector12d& xi, RegistrationNormalEquations* equations) {
+  const Vector12d H_xi = equations->H * xi;
+  equations->cost += equations->g.dot(xi) + 0.5 * xi.dot(H_xi);
+  equations->g += H_xi;
 }
 
 void ShiftRegistration(const Eigen::VectorXd& xi,
                        std::vector<RegistrationNormalEquations>* equations) {
   for (std::size_t k = 0; k < equations->size(); ++k) {
-    RegistrationNormalEquations& segment = (*equations)[k];
     const Vector12d step = xi.segment<12>(6 * static_cast<Eigen::Index>(k));
-    const Vector12d H_step = segment.H * step;
-    segment.cost += segment.g.dot(step) + 0.5 * step.dot(H_step);
-    segment.g += H_step;
+    ShiftRegistration(step, &(*equations)[k]);
   }
 }
 

@@ -4,28 +4,40 @@
 #include <vector>
 
 #include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/window/step_size.h"
 #include "core/odometry/window/window.h"
 
 namespace trajlo {
 
 /// Evaluates the registration of all segments, in parallel over fixed chunks of points whose sums
-/// are added in order: the same bits for any number of threads.
+/// are added in order: the same bits for any number of threads. A segment that is nearer than the
+/// tolerance to where it was linearised is not evaluated again, but shifted. When a segment comes,
+/// most of the window stands nearly still, and only the newest segments are evaluated.
 class RegistrationEvaluator {
  public:
-  explicit RegistrationEvaluator(ThreadPool* threads) : threads_(threads) {}
+  explicit RegistrationEvaluator(ThreadPool* threads, const StepTolerance& tolerance = {0.0, 0.0})
+      : threads_(threads), tolerance_(tolerance) {}
 
-  /// H, g and cost of every segment at `poses`; without `jacobians` only the cost.
-  void Evaluate(const Window& window, const std::vector<SE3>& poses, bool jacobians,
+  /// H, g and cost of every segment at `poses`; without `jacobians` only the cost. Keeps the
+  /// linearisations in the window.
+  void Evaluate(Window* window, const std::vector<SE3>& poses, bool jacobians,
                 std::vector<RegistrationNormalEquations>* equations);
 
  private:
+  /// Whether the linearisation of segment k holds at `poses`.
+  bool IsKnown(const Window& window, const std::vector<SE3>& poses, std::size_t k) const;
+
   struct Chunk {
     std::size_t segment, first, count;
     SegmentLinearizer::Sum sum;
   };
   ThreadPool* threads_;
+  StepTolerance tolerance_;
   std::vector<Chunk> chunks_;
 };
+
+/// The registration at `xi = [xi_begin; xi_end]` away from where it was linearised: see below.
+void ShiftRegistration(const Vector12d& xi, RegistrationNormalEquations* equations);
 
 /// The registration at `xi` away from where it was linearised, to first order and with the kernel's
 /// weights of there: g + H xi, cost + gᵀxi + ½ xiᵀH xi. `xi` stacks the right perturbations of all

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,12 @@ namespace trajlo {
 /// the segment before it.
 using MotionTerm = std::variant<std::monostate, SmoothnessTerm, WhiteNoiseAccelerationTerm>;
 
+/// The registration of a segment, and where it was linearised.
+struct LinearizedRegistration {
+  SE3 T_world_begin, T_world_end;
+  RegistrationNormalEquations equations;
+};
+
 /// One segment of the window, and all that belongs to it.
 struct Segment {
   SegmentCloud cloud;
@@ -29,6 +36,8 @@ struct Segment {
   MotionTerm motion;
   /// The registration around the present poses: to first order in the last step.
   RegistrationNormalEquations registration;
+  /// What `registration` comes from; nothing where `points` are others now.
+  std::optional<LinearizedRegistration> linearization;
   unsigned flags = 0;  ///< WindowFlag bits of the window in which this segment was the newest.
 
   double Duration_s() const { return 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns); }

@@ -14,7 +14,7 @@ using testing::MakeTestWindow;
 SolverOptions Converging() {
   SolverOptions options;
   options.iterations_per_round = 60;
-  options.step_tolerance_m = options.step_tolerance_rad = 1e-11;
+  options.step_tolerance = {1e-11, 1e-11};
   return options;
 }
 

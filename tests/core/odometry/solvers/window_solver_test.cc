@@ -18,7 +18,7 @@ SolverOptions Converging(SolverKind kind) {
   SolverOptions options;
   options.kind = kind;
   options.iterations_per_round = 60;
-  options.step_tolerance_m = options.step_tolerance_rad = 1e-11;
+  options.step_tolerance = {1e-11, 1e-11};
   return options;
 }
 
@@ -91,7 +91,7 @@ TEST(WindowSolver, TheRegistrationIsLeftAtTheSolution) {
       options.iterations_per_round = iterations;
       MakeWindowSolver(options, &threads)->Solve(&window);
       std::vector<RegistrationNormalEquations> exact;
-      RegistrationEvaluator(&threads).Evaluate(window, window.Poses(), true, &exact);
+      RegistrationEvaluator(&threads).Evaluate(&window, window.Poses(), true, &exact);
       for (std::size_t k = 0; k < exact.size(); ++k) {
         const RegistrationNormalEquations& left = window.segments[k].registration;
         EXPECT_LT((left.H - exact[k].H).norm(), 1e-3 * exact[k].H.norm());

@@ -151,6 +151,7 @@ TEST(Innovation, IsLargeWhereThePointsMovedThePoseAndNearZeroWhereThereAreNone) 
   EXPECT_GT(innovation.gain.minCoeff(), 0.5);
   EXPECT_LT(innovation.gain.maxCoeff(), 1.0);
   window.segments.back().points.clear();
+  window.segments.back().linearization.reset();
   MakeWindowSolver(options, &threads)->Solve(&window);
   EXPECT_LT(MeasureInnovation(window, predicted).gain.maxCoeff(), 1e-9);
 }

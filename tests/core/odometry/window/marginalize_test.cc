@@ -23,7 +23,7 @@ Window SolvedWindow(unsigned seed) {
   SolverOptions options;
   options.kind = SolverKind::kGaussNewton;
   options.iterations_per_round = 60;
-  options.step_tolerance_m = options.step_tolerance_rad = 1e-12;
+  options.step_tolerance = {1e-12, 1e-12};
   MakeWindowSolver(options, &threads)->Solve(&window);
   return window;
 }
