@@ -8,6 +8,7 @@
 #include "core/odometry/stopwatch.h"
 #include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
+#include "core/odometry/window/graduation.h"
 #include "core/odometry/window/push_segment.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -108,11 +109,18 @@ void Odometry::Step(SegmentCloud cloud) {
 
 /// Until the step is small: which planes the points belong to, and the poses that bring them there.
 void Odometry::AssociateAndSolve(WindowStatistics* s) {
+  Graduation graduation(window_);
+  Segment* newest = &window_.segments.back();
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
     s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, &window_);
     s->milliseconds_associate += watch.Milliseconds();
+    const bool is_widened = graduation.Widen(newest);
     s->Add(solver_->Solve(&window_), options_.solver);
+    if (is_widened) {
+      graduation.Restore(newest);
+      s->has_converged = false;
+    }
     s->milliseconds_solve += watch.Milliseconds();
   }
 }
