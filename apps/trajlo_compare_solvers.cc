@@ -52,8 +52,8 @@ constexpr char kHelp[] = R"(The same windows, and the same recording, by many so
   trajlo_compare_solvers --input=recording --output=mine --variants=my_variants.yaml --mode=free
       my_variants.yaml:
         variants:
-          - {name: paper, set: "map.levels=1"}
-          - {name: wide, set: "map.levels=1,registration.kernel_m=1.0"}
+          - {name: paper, set: "expert.map.levels=1"}
+          - {name: wide, set: "expert.map.levels=1,expert.registration.kernel_m=1.0"}
 
 --input, --config and --set are those of trajlo_run (trajlo_run --show_config lists all keys).
 

@@ -25,7 +25,9 @@ DEFINE_bool(covariance, false, "write covariance.csv");
 DEFINE_bool(view, true, "write view.ply, a thinned choice of the scans for the 3-D view");
 DEFINE_bool(overwrite, false, "replace an earlier result in the output folder");
 DEFINE_bool(quiet, false, "print warnings and errors only");
-DEFINE_bool(show_config, false, "print the configuration with all options explained, and stop");
+DEFINE_bool(show_config, false, "print the configuration, every option explained, and stop");
+DEFINE_bool(show_expert_config, false,
+            "print the options for those who study the estimator, and stop");
 
 namespace {
 
@@ -121,8 +123,11 @@ trajlo::RunRequest RequestFromFlags() {
 
 ExitCode Run(const trajlo::CommandLine& line) {
   trajlo::RequireNoArguments(line);
-  if (FLAGS_show_config) {
-    std::fputs(trajlo::DumpConfig(ConfigFromFlags()).c_str(), stdout);
+  if (FLAGS_show_config || FLAGS_show_expert_config) {
+    const auto options = !FLAGS_show_expert_config ? trajlo::DumpedOptions::kForUsers
+                         : !FLAGS_show_config      ? trajlo::DumpedOptions::kForExperts
+                                                   : trajlo::DumpedOptions::kAll;
+    std::fputs(trajlo::DumpConfig(ConfigFromFlags(), options).c_str(), stdout);
     return ExitCode::kOk;
   }
   trajlo::RunRequest request = RequestFromFlags();

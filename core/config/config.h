@@ -37,8 +37,15 @@ void ApplyOverrides(std::string_view settings, RunConfig* config,
 /// Throws ConfigError if options that are fine each by itself contradict each other.
 void CheckConfig(const RunConfig& config);
 
-/// The whole configuration as commented YAML. Loading it gives the same values to the last bit.
-std::string DumpConfig(const RunConfig& config);
+/// Which options a dump has.
+enum class DumpedOptions {
+  kAll,
+  kForUsers,    ///< Those that do not begin with `expert.`.
+  kForExperts,  ///< Those that do.
+};
+
+/// The configuration as commented YAML. Loading a whole one gives the same values to the last bit.
+std::string DumpConfig(const RunConfig& config, DumpedOptions options = DumpedOptions::kAll);
 
 /// One option, for sweeps and for help.
 struct KeyInfo {

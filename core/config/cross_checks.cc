@@ -28,27 +28,23 @@ void RequireAtMost(const Value& a, const Value& b, const char* why) {
 void CheckConfig(const RunConfig& config) {
   const SegmenterOptions& segmenter = config.odometry.segmenter;
   const MapOptions& map = config.odometry.map.finest;
-  const PlaneFitOptions& plane = config.odometry.map.plane;
 
   RequireLess({"sensor.min_range_m", segmenter.min_range_m},
               {"sensor.max_range_m", segmenter.max_range_m}, "otherwise no point is left");
-  RequireAtMost({"segmenter.map_voxel_m", segmenter.map_voxel_m},
-                {"segmenter.registration_voxel_m", segmenter.registration_voxel_m},
+  RequireAtMost({"expert.segmenter.map_voxel_m", segmenter.map_voxel_m},
+                {"expert.segmenter.registration_voxel_m", segmenter.registration_voxel_m},
                 "the points to register are taken from those for the map");
   RequireAtMost({"segmenter.interval_s", segmenter.interval_s},
-                {"segmenter.first_interval_s", segmenter.first_interval_s},
+                {"expert.segmenter.first_interval_s", segmenter.first_interval_s},
                 "the first interval fills the map, and needs at least one segment's points");
   RequireLess({"segmenter.interval_s", segmenter.interval_s},
-              {"segmenter.max_gap_s", segmenter.max_gap_s},
+              {"expert.segmenter.max_gap_s", segmenter.max_gap_s},
               "otherwise the time between two segments would count as a pause");
-  RequireLess({"map.min_point_spacing_m", map.min_point_spacing_m},
+  RequireLess({"expert.map.min_point_spacing_m", map.min_point_spacing_m},
               {"map.voxel_size_m", map.voxel_size_m},
               "otherwise a voxel holds one point, and no plane is found");
   RequireLess({"map.voxel_size_m", map.voxel_size_m}, {"map.radius_m", map.radius_m},
               "otherwise the map holds nothing");
-  RequireAtMost({"map.plane.min_neighbors", static_cast<double>(plane.min_neighbors)},
-                {"map.plane.neighbors", static_cast<double>(plane.neighbors)},
-                "a query asks for `neighbors` points, and a plane needs `min_neighbors` of them");
 }
 
 }  // namespace trajlo

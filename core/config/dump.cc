@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kColumns = 100;
 
 constexpr char kHeader[] =
-    "# The configuration of trajlo: every option, its value, what it means and what it may be.\n"
+    "# The configuration of trajlo: options, their values, what they mean and what they may be.\n"
     "# A config file needs only the keys that it changes; `--set=key=value` changes one for a "
     "run.\n"
     "# A sigma is a standard deviation, and a residual is divided by it.\n";
@@ -61,11 +61,13 @@ std::string ValueLines(const Option& option, const std::string& indent) {
 
 }  // namespace
 
-std::string DumpConfig(const RunConfig& config) {
+std::string DumpConfig(const RunConfig& config, DumpedOptions options) {
   RunConfig copy = config;  // Options are bound to something that they could change.
   std::string text = kHeader;
   std::vector<std::string> open;
   for (const Option& option : BindOptions(&copy)) {
+    const bool is_expert = option.key.rfind("expert.", 0) == 0;
+    if (options == (is_expert ? DumpedOptions::kForUsers : DumpedOptions::kForExperts)) continue;
     const std::vector<std::string> parts = Split(option.key);
     const std::string indent(2 * (parts.size() - 1), ' ');
     text += parts.size() == 1 ? "\n" : SectionHeads(open, parts);

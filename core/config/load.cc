@@ -80,9 +80,11 @@ class Loader {
   [[noreturn]] void FailUnknown(const std::string& key, const YAML::Node& node) const {
     std::vector<std::string> keys;
     for (const Option& option : options_) keys.push_back(option.key);
-    const std::string nearest = NearestKey(key, keys);
+    const std::string expert = "expert." + key;
+    const std::string nearest =
+        Find(expert) != nullptr || IsSection(expert) ? expert : NearestKey(key, keys);
     const std::string section = key.substr(0, key.find('.'));
-    std::string mend = "; trajlo_run --show_config lists all keys";
+    std::string mend = "; trajlo_run --show_config and --show_expert_config list all keys";
     if (!nearest.empty()) {
       mend = "; did you mean '" + nearest + "'?";
     } else if (IsSection(section)) {

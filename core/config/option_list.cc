@@ -1,29 +1,45 @@
 // SPDX-License-Identifier: MIT
-// The one list of all options. Their keys, bounds and meanings stand in options/, by section.
+// The one list of all options. Their names, bounds and meanings stand with the structs.
+#include <algorithm>
 #include <utility>
 
 #include "core/config/option.h"
-#include "core/config/options/bind_options.h"
-#include "core/config/options/option_binder.h"
+#include "core/config/option_binder.h"
 
 namespace trajlo {
+namespace {
+
+const std::string kExpertPrefix = "expert.";
+
+}  // namespace
 
 std::vector<Option> BindOptions(RunConfig* config) {
-  OdometryOptions* odometry = &config->odometry;
-  OptionBinder binder;
-  BindInput(&config->input, &binder);
-  BindSensing(&odometry->segmenter, &binder);
-  BindMap(&odometry->map, &binder);
-  BindRegistration(&odometry->registration, &binder);
-  BindMotionPrior(&odometry->motion_prior, &binder);
-  BindSolver(&odometry->solver, &config->ceres_form, &binder);
-  BindMarginalization(&odometry->marginalization, &binder);
-  BindEstimation(odometry, &binder);
-  return std::move(binder.options);
+  OdometryOptions& odometry = config->odometry;
+  OptionBinder d;
+  config->input.Describe(d.In("input"));
+  odometry.segmenter.DescribeSensor(d.In("sensor"));
+  odometry.segmenter.Describe(d.In("segmenter"));
+  odometry.map.Describe(d.In("map"));
+  odometry.map.plane.Describe(d.In("map.plane"));
+  odometry.registration.Describe(d.In("registration"));
+  odometry.motion_prior.Describe(d.In("motion_prior"));
+  odometry.solver.Describe(d.In("solver"));
+  config->ceres_form.Describe(d.In("solver.ceres"));
+  odometry.marginalization.Describe(d.In("marginalization"));
+  odometry.window.Describe(d.In("window"));
+  odometry.initialization.Describe(d.In("initialization"));
+  odometry.lost.Describe(d.In("lost"));
+  odometry.Describe(d.In(""));
+  std::stable_partition(d.options.begin(), d.options.end(), [](const Option& option) {
+    return option.key.rfind(kExpertPrefix, 0) != 0;
+  });
+  return std::move(d.options);
 }
 
 std::string SectionDoc(const std::string& section) {
   static const std::vector<std::pair<std::string, std::string>> docs = {
+      {"expert",
+       "For those who study the estimator. The defaults are the findings of the experiments."},
       {"input",
        "How the recording is read. Times that are left to auto are decided by evidence, "
        "which is printed."},
@@ -40,8 +56,10 @@ std::string SectionDoc(const std::string& section) {
       {"initialization", "How the first interval is treated."},
       {"lost", "When the estimator stops believing itself."},
   };
-  for (const auto& [name, doc] : docs) {
-    if (name == section) return doc;
+  const std::string name =
+      section.rfind(kExpertPrefix, 0) == 0 ? section.substr(kExpertPrefix.size()) : section;
+  for (const auto& [documented, doc] : docs) {
+    if (documented == name) return doc;
   }
   return "";
 }

@@ -80,7 +80,7 @@ void Odometry::Start(const SegmentCloud& cloud) {
   }
   const SE3 T_end = se3::Exp(tau);
   AddToMap(cloud, SE3(), T_end);
-  window_ = MakeWindow(cloud.end_ns, T_end, options_.marginalization);
+  window_ = MakeWindow(cloud.end_ns, T_end);
   if (duration_s > 0.0) window_.begin_velocity = tau / duration_s;
 }
 
@@ -161,7 +161,7 @@ void Odometry::BridgeGap(const SegmentCloud& gap) {
   while (window_.size() > 0) Leave(&unused);
   window_.begin_flags |= kFlagGap;
   SettleFront();
-  window_ = MakeWindow(gap.end_ns, window_.T_world_begin, options_.marginalization);
+  window_ = MakeWindow(gap.end_ns, window_.T_world_begin);
 }
 
 /// The pose at the front of the window is final.

@@ -10,15 +10,24 @@
 #include "core/odometry/weights/registration_options.h"
 #include "core/odometry/window/deskew.h"
 #include "core/odometry/window/marginalize.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
 struct WindowOptions {
-  /// The paper's K: segments that are estimated together.
-  int segments = 4;
-  /// `predicted` is for comparison: discrete poses, deskewed by constant velocity, as in KISS-ICP.
-  /// The first interval is moved by its own estimate in either case.
+  int segments = 5;
   Deskewing deskewing = Deskewing::kEstimated;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kUsers, "segments", segments, Range<int>{1, 100},
+      "Segments that are estimated together, the paper's K (paper: 4).");
+    d(OptionFor::kExperts, "deskewing", deskewing,
+      Names<Deskewing>{{"estimated", Deskewing::kEstimated}, {"predicted", Deskewing::kPredicted}},
+      "What moves the points of a segment to one time: the estimated trajectory, anew in every "
+      "iteration, or the predicted motion, once (discrete poses and constant velocity as in "
+      "KISS-ICP, for comparison).");
+  }
 };
 
 /// Everything that the estimator can be told, by module.
@@ -32,10 +41,18 @@ struct OdometryOptions {
   SolverOptions solver;
   MarginalizationOptions marginalization;
   LostOptions lost;
-  /// Multiplies the covariances that are handed out.
   double covariance_scale = 1.0;
-  /// 0 takes all cores. No result depends on it.
   int threads = 0;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "covariance_scale", covariance_scale, Range<double>{1e-6, 1e9},
+      "Multiplies the covariances that are written: the window takes the map for exact and the "
+      "errors of its points for independent, so 1 is optimistic.");
+    d(OptionFor::kUsers, "threads", threads, Range<int>{0, 1024},
+      "0 takes all cores; no result depends on it. So many also decompress bz2 chunks of a "
+      "ROS 1 bag ahead; with 1 a single thread reads beside the estimator.");
+  }
 };
 
 }  // namespace trajlo

@@ -42,7 +42,7 @@ def effective_options(places, suite, configuration, sequence):
     """All options of a run as trajlo_run understands them; its refusal ends the batch early."""
     files = config_files(places, sequence, configuration)
     values = {**sequence.settings, **configuration.settings}
-    command = [places.program("trajlo_run"), "--show_config"]
+    command = [places.program("trajlo_run"), "--show_config", "--show_expert_config"]
     command += [f"--config={','.join(map(str, files))}"] if files else []
     command += [f"--set={','.join(f'{k}={v}' for k, v in values.items())}"] if values else []
     done = subprocess.run(command, capture_output=True, text=True, check=False)

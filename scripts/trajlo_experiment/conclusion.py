@@ -109,7 +109,7 @@ def warnings(plan):
     varied = {key for factor in plan.suite.factors for key in
               [*factor.keys, *(key for options in factor.settings.values() for key in options)]}
     densities = sorted(key for key in varied
-                       if key in ("motion_prior.translation_m2_s3", "motion_prior.rotation_rad2_s3"))
+                       if key in ("expert.motion_prior.translation_m2_s3", "expert.motion_prior.rotation_rad2_s3"))
     asked = "motion_prior.self_tuning" in varied  # then it is what the experiment is about
     if densities and not asked and any(map(tunes_itself, {run.options for run in plan.runs})):
         said.append(f"{', '.join(densities)} varied while motion_prior.self_tuning was true: the "

@@ -51,8 +51,8 @@ class FactorTest(ReadingTest):
         self.assertIsNone(factor.key)
 
     def test_names_can_stand_for_sets_of_options(self):
-        factor = self.read("{settings: {ours: {}, papers: {map.levels: 1, m.x: true}}}")
-        self.assertEqual(factor.options("papers"), {"map.levels": "1", "m.x": "true"})
+        factor = self.read("{settings: {ours: {}, papers: {expert.map.levels: 1, m.x: true}}}")
+        self.assertEqual(factor.options("papers"), {"expert.map.levels": "1", "m.x": "true"})
 
     def test_what_makes_no_sense_is_refused_with_its_line(self):
         self.refuse("{from: 1}", "vary.yaml:1.*above its `from`")

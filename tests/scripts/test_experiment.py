@@ -19,17 +19,17 @@ SMALL = """
 design: {kind: grid}
 vary:
   window.segments: [3, 5]
-  registration.kernel: [none, huber]
+  expert.registration.kernel: [none, huber]
 marks:
   defaults: {}
-  chosen: {window.segments: 5, registration.kernel: none}
+  chosen: {window.segments: 5, expert.registration.kernel: none}
 sequences:
   - simulate: hall_os1_16
     seeds: [1, 2]
 """
 ONE_AT_A_TIME = SMALL.replace("grid", "one_at_a_time").replace("[3, 5]", "[3, 4, 5]").replace(
-    "registration.kernel: [none, huber]", "rules: {settings: {ours: {}, other: {a.b: 1}}}").replace(
-    "registration.kernel: none", "a.b: 2")
+    "expert.registration.kernel: [none, huber]", "rules: {settings: {ours: {}, other: {a.b: 1}}}").replace(
+    "expert.registration.kernel: none", "a.b: 2")
 
 
 class ReadingTest(PretendedTest):
@@ -47,25 +47,25 @@ class ReadingTest(PretendedTest):
         self.refuse(SMALL + "center: {window.segments: 3}\n", "only one_at_a_time has a center")
 
     def test_two_factors_cannot_set_the_same_option(self):
-        self.refuse(SMALL.replace("registration.kernel: [none, huber]",
+        self.refuse(SMALL.replace("expert.registration.kernel: [none, huber]",
                                   "k: {values: [1], keys: {window.segments: 2}}")
-                    .replace("registration.kernel: none", "k: 1"), "k and window.segments both set")
+                    .replace("expert.registration.kernel: none", "k: 1"), "k and window.segments both set")
 
     def test_what_a_job_decides_cannot_vary(self):
-        self.refuse(SMALL.replace("registration.kernel: [none, huber]", "threads: [1, 2]")
-                    .replace("registration.kernel: none", "threads: 1"), "threads cannot vary")
+        self.refuse(SMALL.replace("expert.registration.kernel: [none, huber]", "threads: [1, 2]")
+                    .replace("expert.registration.kernel: none", "threads: 1"), "threads cannot vary")
 
     def test_several_options_at_once_need_a_value_at_the_centre(self):
         text = SMALL.replace("grid", "one_at_a_time").replace(
-            "registration.kernel: [none, huber]", "k: {values: [1, 2], keys: {a.b: 2}}").replace(
-            "registration.kernel: none", "k: 1")
+            "expert.registration.kernel: [none, huber]", "k: {values: [1, 2], keys: {a.b: 2}}").replace(
+            "expert.registration.kernel: none", "k: 1")
         self.refuse(text, "k drives several keys and needs a value in center")
         self.assertEqual(read_experiment(self.write("e.yaml", text + "center: {k: 1}\n")).center,
                          {"k": 1})
 
     def test_an_option_that_does_not_exist_ends_it_before_it_begins(self):
         with self.assertRaisesRegex(SuiteError, "no such option"):
-            self.batch(SMALL.replace("registration.kernel", "bad"))
+            self.batch(SMALL.replace("expert.registration.kernel", "bad"))
 
     def test_the_experiments_of_the_project_are_well_formed(self):
         files = sorted((ROOT / "config" / "experiments").glob("*.yaml"))
@@ -86,7 +86,7 @@ class PointsTest(PretendedTest):
         self.assertEqual(len(points), 5)
         chosen, = (point for point in points if "chosen" in point.marks)
         self.assertEqual((chosen.in_design, chosen.levels),
-                         (True, {"window.segments": 5, "registration.kernel": "none"}))
+                         (True, {"window.segments": 5, "expert.registration.kernel": "none"}))
         self.assertEqual([(point.marks, point.options) for point in points if not point.in_design],
                          [(("defaults",), {})])
 
@@ -133,7 +133,7 @@ class TableTest(PretendedTest):
 
     def test_a_row_has_what_varied_every_metric_and_the_versions(self):
         row = self.rows()[0]
-        self.assertEqual((row["row"], row["window.segments"], row["registration.kernel"], row["group"],
+        self.assertEqual((row["row"], row["window.segments"], row["expert.registration.kernel"], row["group"],
                           row["seed"], row["result"]), (1, 3, "none", "hall_os1_16", 1, "ok"))
         self.assertEqual((row["ate_rmse_m"], row["ate_rotation_rmse_deg"], row["rpe_1m_rmse_m"],
                           row["diverged"], row["exit_code"]), (0.1, 1.0, 0.1, False, 0))

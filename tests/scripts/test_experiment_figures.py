@@ -181,9 +181,9 @@ class FiguresTest(PretendedTest):
                                          suite=types.SimpleNamespace(factors=factors))
 
         tuned, fixed = "motion_prior: {self_tuning: true}", "motion_prior: {self_tuning: false}"
-        density = "motion_prior.translation_m2_s3"
+        density = "expert.motion_prior.translation_m2_s3"
         self.assertIn(f"{density} varied while", conclusion.warnings(plan_of(tuned, [density]))[0])
-        for options, varied in ((fixed, [density]), (tuned, ["registration.kernel"]),
+        for options, varied in ((fixed, [density]), (tuned, ["expert.registration.kernel"]),
                                 (tuned, [density, "motion_prior.self_tuning"]), ("", [density])):
             self.assertEqual(conclusion.warnings(plan_of(options, varied)), [])
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/options/describe.h"
+
 namespace trajlo {
 
 enum class LinearSolverKind { kDenseNormalCholesky, kDenseQr, kSparseNormalCholesky, kCgnr };
@@ -27,6 +29,32 @@ struct CeresFormOptions {
            linear_solver == LinearSolverKind::kDenseNormalCholesky &&
            trust_region == TrustRegionKind::kLevenbergMarquardt &&
            initial_trust_region_radius == 1e16;
+  }
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "registration", registration,
+      Names<RegistrationForm>{{"prepared", RegistrationForm::kPrepared},
+                              {"condensed", RegistrationForm::kCondensed},
+                              {"segment_residuals", RegistrationForm::kSegmentResiduals},
+                              {"point", RegistrationForm::kPoint},
+                              {"point_autodiff", RegistrationForm::kPointAutodiff}},
+      "How the registration enters Ceres: 13 condensed rows a segment, computed in parallel or "
+      "each by itself; one block a segment with a residual a point; one block a point with "
+      "analytic or automatic Jacobians.");
+    d(OptionFor::kExperts, "linear_solver", linear_solver,
+      Names<LinearSolverKind>{{"dense_normal_cholesky", LinearSolverKind::kDenseNormalCholesky},
+                              {"dense_qr", LinearSolverKind::kDenseQr},
+                              {"sparse_normal_cholesky", LinearSolverKind::kSparseNormalCholesky},
+                              {"cgnr", LinearSolverKind::kCgnr}},
+      "How Ceres solves the normal equations.");
+    d(OptionFor::kExperts, "trust_region", trust_region,
+      Names<TrustRegionKind>{{"levenberg_marquardt", TrustRegionKind::kLevenbergMarquardt},
+                             {"dogleg", TrustRegionKind::kDogleg}},
+      "How Ceres bounds its steps.");
+    d(OptionFor::kExperts, "initial_trust_region_radius", initial_trust_region_radius,
+      Range<double>{1e-10, 1e16},
+      "The largest makes the first step a Gauss-Newton step to the last bits.");
   }
 };
 

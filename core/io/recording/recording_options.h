@@ -10,6 +10,7 @@
 
 #include "core/io/packets/velodyne_model.h"
 #include "core/io/time_convention.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
@@ -21,32 +22,73 @@ struct PerLidar {
   T Of(std::size_t lidar) const { return values[std::min(lidar, values.size() - 1)]; }
 };
 
+inline Names<std::optional<VelodyneModel>> VelodyneModelNames() {
+  Names<std::optional<VelodyneModel>> names = {{"auto", std::nullopt}};
+  for (const auto& [name, model] : kVelodyneModels) names.emplace_back(name, model);
+  return names;
+}
+
 /// How a recording is read.
 struct RecordingOptions {
-  /// The topics of a bag to read, one per LiDAR; empty takes the only one that has point clouds.
   std::vector<std::string> topics;
-  /// What is fixed about the points' times; the rest is decided by evidence.
   PerLidar<bool> use_point_times{{true}};
   PerLidar<std::string> time_field;
   PerLidar<TimeUnit> time_unit;
   PerLidar<TimeOrigin> time_origin;
   PerLidar<StampAt> stamp_at;
-  /// Added to the stamps and times of a LiDAR whose clock is late by this much.
   PerLidar<double> clock_offset_s;
-  /// Explicit stamps file of a folder of scans; empty: search for one.
   std::filesystem::path stamps_file;
-  /// Time between the scans of a folder when nothing else gives stamps.
   double scan_period_s = 0.1;
-  /// Of the sensors in a capture whose packets do not name it (old firmware).
   std::optional<VelodyneModel> velodyne_model;
-  /// Scans before this much time since the first are skipped.
   double start_s = 0.0;
-  /// The length of what is read; 0 reads to the end.
   double duration_s = 0.0;
 
   TimeOptions TimeOf(std::size_t lidar) const {
     return {use_point_times.Of(lidar), time_field.Of(lidar), time_unit.Of(lidar),
             time_origin.Of(lidar), stamp_at.Of(lidar)};
+  }
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kUsers, "topics", topics,
+      "Topics of a bag to read, one per LiDAR; empty takes the only one with point clouds.");
+    d(OptionFor::kUsers, "point_time", use_point_times,
+      Names<bool>{{"auto", true}, {"none", false}},
+      "none: ignore per-point times, as motion-corrected scans need it; every point then gets "
+      "its scan's stamp.");
+    d(OptionFor::kUsers, "time_field", time_field,
+      "Name of the field with the points' times; empty takes the first with a known name.");
+    d(OptionFor::kUsers, "time_unit", time_unit,
+      Names<TimeUnit>{{"auto", TimeUnit::kAuto},
+                      {"s", TimeUnit::kSeconds},
+                      {"ms", TimeUnit::kMilliseconds},
+                      {"us", TimeUnit::kMicroseconds},
+                      {"ns", TimeUnit::kNanoseconds}},
+      "Unit of the points' times; auto decides by the evidence of the first scans.");
+    d(OptionFor::kUsers, "time_origin", time_origin,
+      Names<TimeOrigin>{{"auto", TimeOrigin::kAuto},
+                        {"start", TimeOrigin::kSweepStart},
+                        {"stamp", TimeOrigin::kStamp},
+                        {"end", TimeOrigin::kSweepEnd},
+                        {"absolute", TimeOrigin::kAbsolute}},
+      "What a point time of zero means: start or end of the sweep, the scan's stamp, or the "
+      "zero of an absolute clock.");
+    d(OptionFor::kUsers, "stamp_at", stamp_at,
+      Names<StampAt>{{"auto", StampAt::kAuto}, {"start", StampAt::kStart}, {"end", StampAt::kEnd}},
+      "Which end of the sweep a scan's stamp marks.");
+    d(OptionFor::kUsers, "clock_offset_s", clock_offset_s, Range<double>{-1e9, 1e9},
+      "Added to the stamps and times of a LiDAR whose clock is late by this much.");
+    d(OptionFor::kUsers, "stamps_file", stamps_file,
+      "File with one stamp a line; empty searches for timestamps.txt or times.txt.");
+    d(OptionFor::kUsers, "scan_period_s", scan_period_s, Range<double>{1e-3, 100.0},
+      "Time between scans when nothing else gives stamps.");
+    d(OptionFor::kUsers, "velodyne_model", velodyne_model, VelodyneModelNames(),
+      "Of Velodynes in a capture whose packets do not name it (old firmware); auto refuses "
+      "these. VLP-16 is also the Puck LITE.");
+    d(OptionFor::kUsers, "start_s", start_s, Range<double>{0.0, 1e9},
+      "Scans before this much time since the first are skipped.");
+    d(OptionFor::kUsers, "duration_s", duration_s, Range<double>{0.0, 1e9},
+      "The length of what is read; 0 reads to the end.");
   }
 };
 

@@ -4,6 +4,11 @@
 namespace trajlo {
 namespace {
 
+/// Lost, when of all windows of this time ...
+constexpr double kSpan_s = 3.0;
+/// ... more than this share did not converge or were reverted: planes that never settle are not
+/// those of the scene.
+constexpr double kMaxUnsettledShare = 0.8;
 /// Where predictions are off by this much (root mean square over the span), half as many unsettled
 /// windows are enough ...
 constexpr double kFailedPrediction_m = 1.4;
@@ -36,7 +41,7 @@ bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   const double correction_m = window.correction_m + kLeverArm_m * window.correction_rad;
   recent_.push_back({window.end_ns, is_settled, correction_m * correction_m});
   unsettled_ += is_settled ? 0 : 1;
-  const std::int64_t begin_ns = window.end_ns - Nanoseconds(options_.convergence_span_s);
+  const std::int64_t begin_ns = window.end_ns - Nanoseconds(kSpan_s);
   while (recent_.front().end_ns < begin_ns) {
     unsettled_ -= recent_.front().is_settled ? 0 : 1;
     recent_.pop_front();
@@ -47,7 +52,7 @@ bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   for (const Window& recent : recent_) squared_corrections_m2 += recent.squared_correction_m2;
   const bool predictions_fail =
       squared_corrections_m2 > kFailedPrediction_m * kFailedPrediction_m * windows;
-  const double max_share = (predictions_fail ? 0.5 : 1.0) * options_.max_unconverged_share;
+  const double max_share = (predictions_fail ? 0.5 : 1.0) * kMaxUnsettledShare;
   return span_is_full_ && static_cast<double>(unsettled_) > max_share * windows;
 }
 

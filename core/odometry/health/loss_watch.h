@@ -6,25 +6,32 @@
 #include <optional>
 
 #include "core/odometry/health/window_statistics.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
 struct LostOptions {
-  /// The estimator is lost when fewer than this share of the points find a plane ...
   double min_inlier_share = 0.05;
-  /// ... for longer than this ...
   double max_duration_s = 1.0;
-  /// ... or when of all windows of this time ...
-  double convergence_span_s = 3.0;
-  /// ... more than this share did not converge, or were reverted: planes that never settle are not
-  /// those of the scene.
-  double max_unconverged_share = 0.8;
-  /// A solve that moves the newest pose farther than this from its prediction is not believed.
   double max_correction_m = 3.0;
   double max_correction_rad = 1.0;
-  /// Below this information per point a direction counts as degenerate (a well-spread scene has
-  /// 0.05 to 0.2).
   double degenerate_eigenvalue = 0.002;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "min_inlier_share", min_inlier_share, Range<double>{0.0, 1.0},
+      "The estimator is lost when fewer than this share of the points find a plane for longer than "
+      "max_duration_s.");
+    d(OptionFor::kExperts, "max_duration_s", max_duration_s, Range<double>{0.0, 1e6},
+      "See min_inlier_share.");
+    d(OptionFor::kExperts, "max_correction_m", max_correction_m, Range<double>{1e-3, 1e3},
+      "A solve that moves the newest pose farther than this from its prediction is not believed.");
+    d(OptionFor::kExperts, "max_correction_rad", max_correction_rad, Range<double>{1e-3, 10.0},
+      "The same for its rotation.");
+    d(OptionFor::kExperts, "degenerate_eigenvalue", degenerate_eigenvalue, Range<double>{0.0, 1.0},
+      "Below this information per point a direction counts as degenerate (a well-spread scene "
+      "has 0.05 to 0.2).");
+  }
 };
 
 /// Notices when the estimator stops following the scene. A trajectory that is wrong looks smooth
@@ -47,7 +54,7 @@ class LossWatch {
 
   LostOptions options_;
   std::optional<std::int64_t> few_since_ns_;
-  std::deque<Window> recent_;  ///< Those of the last convergence_span_s.
+  std::deque<Window> recent_;  ///< Those of the last three seconds.
   std::size_t unsettled_ = 0;  ///< Of these.
   bool span_is_full_ = false;
 };

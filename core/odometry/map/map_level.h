@@ -8,24 +8,35 @@
 #include "core/odometry/map/plane_cells.h"
 #include "core/odometry/map/plane_fit.h"
 #include "core/odometry/map/voxel_hash_map.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
 enum class MapKind { kVoxelHash, kKdTree };
 
 struct MapOptions {
-  /// Which points are a place's nearest: those of the seven voxels around it, or of the whole map.
   MapKind kind = MapKind::kVoxelHash;
-  /// Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).
   double voxel_size_m = 0.3;
-  /// A point nearer than this to another of its voxel is not added: otherwise a sensor at rest
-  /// fills the voxels with copies of the same rings, and planes are fitted to scan lines.
   double min_point_spacing_m = 0.12;
-  /// Voxels farther than this from the sensor are dropped.
   double radius_m = 100.0;
-  /// One plane for each eighth of a voxel, fitted about its centre and kept until the points around
-  /// it have become more; otherwise every query fits its own, as in the paper.
   bool shared_planes = true;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "kind", kind,
+      Names<MapKind>{{"voxel_hash", MapKind::kVoxelHash}, {"kd_tree", MapKind::kKdTree}},
+      "voxel_hash is fast; kd_tree finds the exact neighbours.");
+    d(OptionFor::kUsers, "voxel_size_m", voxel_size_m, Range<double>{1e-2, 20.0},
+      "Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).");
+    d(OptionFor::kExperts, "min_point_spacing_m", min_point_spacing_m, Range<double>{0.0, 10.0},
+      "A point nearer than this to another of its voxel is not added: otherwise a sensor at "
+      "rest fills the voxels with copies of the same rings.");
+    d(OptionFor::kUsers, "radius_m", radius_m, Range<double>{1.0, 1e4},
+      "Voxels farther than this from the sensor are dropped.");
+    d(OptionFor::kExperts, "shared_planes", shared_planes,
+      "One plane for each eighth of a voxel, kept until the points around it have become more; "
+      "false fits one for every point, as the paper does.");
+  }
 };
 
 /// One resolution of the map: points, and the planes through them.

@@ -98,9 +98,9 @@ bool MapPyramid::IsGrazed(const FittedPlane& plane, const Eigen::Vector3f& ray_w
 
 bool MapPyramid::IsWideAndThin(const FittedPlane& plane, const Eigen::Vector3f& from_center) const {
   const float distance_m = std::abs(plane.normal_world.dot(from_center) - plane.offset_m);
-  return plane.thickness_m <= static_cast<float>(plane_.half_weight_thickness_m) &&
+  return plane.thickness_m <= static_cast<float>(PlaneFitOptions::kHalfWeightThickness_m) &&
          plane.thickness_m < static_cast<float>(plane_.max_wide_flatness) * plane.width_m &&
-         distance_m <= static_cast<float>(plane_.max_wide_distance_in_widths) * plane.width_m;
+         distance_m <= static_cast<float>(PlaneFitOptions::kMaxWideDistanceInWidths) * plane.width_m;
 }
 
 void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const {
@@ -121,7 +121,7 @@ void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane*
     plane.normal_world = query.plane.normal_world.cast<double>();
     plane.offset_m = plane.normal_world.dot(query.center_world) + query.plane.offset_m;
     plane.scale = std::ldexp(1.0, query.level);
-    const double relative = query.plane.thickness_m / plane_.half_weight_thickness_m;
+    const double relative = query.plane.thickness_m / PlaneFitOptions::kHalfWeightThickness_m;
     plane.weight = 1.0 / ((1.0 + relative * relative) * (query.is_wide ? 1.0 : plane.scale));
   }
 }

@@ -6,15 +6,21 @@
 #include <vector>
 
 #include "core/odometry/map/map_level.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
 struct MapPyramidOptions {
   MapOptions finest;
   PlaneFitOptions plane;
-  /// Number of maps, each with voxels and spacing twice those of the one before; 1 is the paper's
-  /// single map.
   int levels = 4;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    finest.Describe(d);
+    d(OptionFor::kExperts, "levels", levels, Range<int>{1, 8},
+      "Maps of growing coarseness, each with voxels and spacing twice those of the one before.");
+  }
 };
 
 /// A place in the world, and the ray that ends there: from the sensor, of any length.

@@ -10,7 +10,7 @@ namespace trajlo {
 FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_world,
                      const PlaneFitOptions& options, double spacing_m) {
   const int n = neighbors.count;
-  if (n < options.min_neighbors) return {};
+  if (n < PlaneFitOptions::kMinNeighbors) return {};
   double sx = 0, sy = 0, sz = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   // Moments about the nearest neighbour: no cancellation.
   const double ox = neighbors.x[0], oy = neighbors.y[0], oz = neighbors.z[0];
@@ -37,7 +37,7 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   const double thickness_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
   const double width_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
   if (width_m < options.min_width_in_spacings * spacing_m ||
-      thickness_m > options.max_thickness_m || thickness_m > options.max_flatness * width_m) {
+      thickness_m > options.max_thickness_m || thickness_m > PlaneFitOptions::kMaxFlatness * width_m) {
     return {};
   }
   const Eigen::Vector3d normal = eigen.eigenvectors().col(0);

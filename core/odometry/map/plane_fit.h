@@ -4,35 +4,46 @@
 #include <Eigen/Core>
 
 #include "core/odometry/map/neighbors.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
 /// When the neighbours of a place make a plane. With the standard deviations l0 <= l1 <= l2 of the
 /// neighbours along their principal axes:
 struct PlaneFitOptions {
-  /// Points taken for a plane (paper: 5).
   int neighbors = 8;
-  int min_neighbors = 5;
-  /// Upper bound of l0: how thick a plane may be.
+  static constexpr int kMinNeighbors = 5;
   double max_thickness_m = 0.15;
-  /// Lower bound of l1, in spacings of the map's points: neighbours on one scan line have no
-  /// normal.
   double min_width_in_spacings = 0.53;
   /// Upper bound of l0 / l1.
-  double max_flatness = 0.5;
-  /// Planes that meet the ray to the point which asks at a smaller angle than this sine's are taken
-  /// only where there is no other. Neighbours on one scan line that is ragged (a facade with
-  /// recesses, leaves) span the cone of that beam: a plane through the sensor, which would hold the
-  /// sensor where it was.
+  static constexpr double kMaxFlatness = 0.5;
   double min_incidence_sine = 0.1;
-  /// Upper bound of l0 / l1 for a plane of a coarser level that is preferred to those of the finer
-  /// ones; it must be thinner than `half_weight_thickness_m`, too. 0 never prefers one.
   double max_wide_flatness = 0.1;
-  /// Upper bound of the distance from such a plane to the point that asks for it, in l1: farther
-  /// off stands something else, which the coarser levels have no points of (a post before a wall).
-  double max_wide_distance_in_widths = 0.3;
+  /// Upper bound of the distance from a plane of a coarser level that is preferred to the point
+  /// that asks for it, in l1: farther off stands something else, which the coarser levels have no
+  /// points of (a post before a wall).
+  static constexpr double kMaxWideDistanceInWidths = 0.3;
   /// A plane of this thickness weighs half as much as a thin one.
-  double half_weight_thickness_m = 0.05;
+  static constexpr double kHalfWeightThickness_m = 0.05;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "neighbors", neighbors, Range<int>{kMinNeighbors, kMaxNeighbors},
+      "Map points taken for a plane (paper: 5).");
+    d(OptionFor::kExperts, "max_thickness_m", max_thickness_m, Range<double>{1e-4, 10.0},
+      "Upper bound of the neighbours' standard deviation across a plane.");
+    d(OptionFor::kExperts, "min_width_in_spacings", min_width_in_spacings, Range<double>{0.0, 10.0},
+      "Lower bound of the neighbours' standard deviation along a plane's shorter axis, in spacings "
+      "of the map's points: neighbours on one scan line have no normal.");
+    // Neighbours on one scan line that is ragged (a facade with recesses, leaves) span the cone of
+    // that beam: a plane through the sensor, which would hold the sensor where it was.
+    d(OptionFor::kExperts, "min_incidence_sine", min_incidence_sine, Range<double>{0.0, 0.9},
+      "Planes that meet the ray to the point at a smaller angle than this sine's are taken only "
+      "where there is no other: a plane through the sensor is mostly a scan line, no surface.");
+    d(OptionFor::kExperts, "max_wide_flatness", max_wide_flatness, Range<double>{0.0, 1.0},
+      "A plane of a coarser level that is thin, and flatter than this, is preferred to those of "
+      "the finer ones; 0 never prefers one.");
+  }
 };
 
 /// The plane nᵀ (x - center) = offset about a center in the world frame that is kept elsewhere.

@@ -161,7 +161,7 @@ void ScanSequencer::Describe(std::size_t lidar) {
   sentence += "; its scans are left out. If the clocks differ, set input.clock_offset_s";
   if (!apart->never_together) {
     sentence += ", of this LiDAR to about " + Seconds(-apart->ahead_ns) +
-                "; if its messages only come late, raise segmenter.max_lag_s";
+                "; if its messages only come late, raise expert.segmenter.max_lag_s";
   }
   Remark(sentence);
 }

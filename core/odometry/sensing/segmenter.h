@@ -8,32 +8,56 @@
 #include "core/odometry/sensing/lidar_scan.h"
 #include "core/odometry/sensing/segment_cloud.h"
 #include "core/odometry/sensing/voxel_filter.h"
+#include "core/options/describe.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {
 
 struct SegmenterOptions {
-  /// Length of the first segment, which fills the map (paper: 0.3 s).
   double first_interval_s = 0.3;
-  /// Length of all others, the paper's Delta t.
   double interval_s = 0.03;
   double min_range_m = 0.5;
   double max_range_m = 150.0;
-  /// At most one point per cell of this size and segment enters the map.
   double map_voxel_m = 0.1;
-  /// At most one of those per cell of this size is registered.
   double registration_voxel_m = 0.4;
-  /// At most this many are registered of a segment, taken evenly over its points; 0 takes all.
   int max_registration_points = 2000;
-  /// A longer pause becomes one gap segment; shorter ones become empty segments.
   double max_gap_s = 1.0;
-  /// A LiDAR that lags behind the others by more is not waited for.
   double max_lag_s = 0.5;
-  /// Turns every ray of a scan up by this angle about the axis across it: the calibration error of
-  /// KITTI's HDL-64E is 0.205 degrees.
   double vertical_correction_deg = 0.0;
-  /// One per LiDAR; LiDARs beyond the list have the identity.
   std::vector<SE3> T_body_lidar;
+
+  template <typename Describer>
+  void DescribeSensor(Describer& d) {
+    d(OptionFor::kUsers, "T_body_lidar", T_body_lidar,
+      "Pose of each LiDAR in the body frame; one LiDAR alone may go without, and is the body "
+      "then.");
+    d(OptionFor::kUsers, "min_range_m", min_range_m, Range<double>{0.0, 1e3},
+      "Nearer points are dropped.");
+    d(OptionFor::kUsers, "max_range_m", max_range_m, Range<double>{0.1, 1e4},
+      "Farther points are dropped.");
+    d(OptionFor::kUsers, "vertical_correction_deg", vertical_correction_deg,
+      Range<double>{-5.0, 5.0},
+      "Turns every ray up by this angle: the calibration error of KITTI's HDL-64E is 0.205.");
+  }
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "first_interval_s", first_interval_s, Range<double>{1e-3, 10.0},
+      "Length of the first segment, which fills the map (paper: 0.3 s).");
+    d(OptionFor::kUsers, "interval_s", interval_s, Range<double>{1e-3, 10.0},
+      "Length of all other segments, the paper's Delta t.");
+    d(OptionFor::kExperts, "map_voxel_m", map_voxel_m, Range<double>{1e-3, 10.0},
+      "At most one point per cell of this size and segment enters the map.");
+    d(OptionFor::kExperts, "registration_voxel_m", registration_voxel_m, Range<double>{1e-3, 20.0},
+      "At most one of those per cell of this size is registered.");
+    d(OptionFor::kUsers, "max_registration_points", max_registration_points, Range<int>{0, 1000000},
+      "At most this many are registered of a segment, taken evenly over its points; 0 takes "
+      "all.");
+    d(OptionFor::kExperts, "max_gap_s", max_gap_s, Range<double>{1e-3, 1e3},
+      "A longer pause becomes one gap segment; shorter ones become empty segments.");
+    d(OptionFor::kExperts, "max_lag_s", max_lag_s, Range<double>{0.0, 1e3},
+      "A LiDAR that lags behind the others by more is not waited for.");
+  }
 };
 
 /// Cuts the stream of scans into segments, whatever the length of a scan.

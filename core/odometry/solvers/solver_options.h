@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/odometry/window/step_size.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
@@ -9,12 +10,26 @@ enum class SolverKind { kCeres, kGaussNewton };
 
 struct SolverOptions {
   SolverKind kind = SolverKind::kCeres;
-  /// At most this many associate ↔ solve rounds a window.
   int max_rounds = 8;
-  /// At most this many solver steps in each round.
   int iterations_per_round = 1;
-  /// The rounds end when no control pose moves by more.
   StepTolerance step_tolerance;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kUsers, "kind", kind,
+      Names<SolverKind>{{"ceres", SolverKind::kCeres}, {"gauss_newton", SolverKind::kGaussNewton}},
+      "Ceres, or the hand-written Gauss-Newton of the paper.");
+    d(OptionFor::kExperts, "max_rounds", max_rounds, Range<int>{1, 1000},
+      "At most this many rounds of association and solve a window.");
+    d(OptionFor::kExperts, "iterations_per_round", iterations_per_round, Range<int>{1, 1000},
+      "At most this many solver iterations in each round.");
+    d(OptionFor::kExperts, "step_tolerance_m", step_tolerance.translation_m,
+      Range<double>{0.0, 1.0},
+      "The rounds end when no control pose moves by more than this, nor turns by more than "
+      "step_tolerance_rad.");
+    d(OptionFor::kExperts, "step_tolerance_rad", step_tolerance.rotation_rad,
+      Range<double>{0.0, 1.0}, "See step_tolerance_m.");
+  }
 };
 
 }  // namespace trajlo

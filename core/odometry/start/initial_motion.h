@@ -5,6 +5,7 @@
 #include "core/odometry/parallel/parallel_for.h"
 #include "core/odometry/sensing/segment_cloud.h"
 #include "core/odometry/weights/registration_options.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
@@ -28,9 +29,14 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
                                     const RegistrationOptions& registration, ThreadPool* threads);
 
 struct InitializationOptions {
-  /// Estimates the motion during the first interval; otherwise a stationary start is assumed, as in
-  /// the paper.
   bool estimate_motion = true;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "estimate_motion", estimate_motion,
+      "Estimates the motion during the first interval by registering its second half to its "
+      "first one; false assumes a stationary start, as the paper does.");
+  }
 };
 
 /// The twist over the first interval [rho; theta] (m, rad): the estimated one if it is believed,

@@ -3,6 +3,7 @@
 
 #include "core/odometry/weights/innovation.h"
 #include "core/odometry/window/window.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
@@ -13,14 +14,31 @@ enum class MotionPriorKind {
 
 struct MotionPriorOptions {
   MotionPriorKind kind = MotionPriorKind::kWhiteNoiseAcceleration;
-  /// Spectral densities of the acceleration: where self-tuning begins, or what holds without it.
   double translation_m2_s3 = 0.5;
   double rotation_rad2_s3 = 0.5;
-  /// Lets the densities follow the motion.
   bool self_tuning = true;
-  /// They never fall below these: a body at rest may set off at any time.
   double min_translation_m2_s3 = 0.2;
   double min_rotation_rad2_s3 = 0.2;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "kind", kind,
+      Names<MotionPriorKind>{{"white_noise_acceleration", MotionPriorKind::kWhiteNoiseAcceleration},
+                             {"pseudo_velocity", MotionPriorKind::kPseudoVelocity}},
+      "White noise on acceleration, which ties neighbouring segments, or the paper's "
+      "pseudo-velocity, which ties a segment to the last estimate of the one before.");
+    d(OptionFor::kUsers, "self_tuning", self_tuning,
+      "Lets the two densities below follow the motion; false keeps them.");
+    d(OptionFor::kExperts, "translation_m2_s3", translation_m2_s3, Range<double>{1e-9, 1e9},
+      "Spectral density of the acceleration: how freely the body moves. 1.5 times the squared "
+      "change of a segment's translation, by the cube of its length.");
+    d(OptionFor::kExperts, "rotation_rad2_s3", rotation_rad2_s3, Range<double>{1e-9, 1e9},
+      "The same for rotation.");
+    d(OptionFor::kExperts, "min_translation_m2_s3", min_translation_m2_s3, Range<double>{1e-9, 1e9},
+      "Self-tuning never goes below this.");
+    d(OptionFor::kExperts, "min_rotation_rad2_s3", min_rotation_rad2_s3, Range<double>{1e-9, 1e9},
+      "The same for rotation.");
+  }
 };
 
 /// How freely the body is taken to move: the spectral density of its acceleration, one for

@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/options/describe.h"
 #include "factors/segment_registration.h"
 
 namespace trajlo {
 
 /// How a point's distance to its plane is weighed.
 struct RegistrationOptions {
-  /// Standard deviation of the distance of one point: the range noise of the sensor, and the
-  /// roughness of what the map takes for planes.
   double sigma_m = 0.03;
-  /// Points that hit the same surface share the error of its plane: so many count as one.
   double points_per_error = 10.0;
   KernelKind kernel = KernelKind::kCauchy;
-  /// Width of the kernel.
   double kernel_m = 0.1;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kUsers, "sigma_m", sigma_m, Range<double>{1e-4, 10.0},
+      "Standard deviation of a point's distance to its plane.");
+    d(OptionFor::kExperts, "points_per_error", points_per_error, Range<double>{1.0, 1e6},
+      "Points that hit the same surface share its error: so many count as one.");
+    d(OptionFor::kExperts, "kernel", kernel,
+      Names<KernelKind>{{"none", KernelKind::kNone},
+                        {"huber", KernelKind::kHuber},
+                        {"cauchy", KernelKind::kCauchy},
+                        {"geman_mcclure", KernelKind::kGemanMcClure},
+                        {"tukey", KernelKind::kTukey}},
+      "Robust kernel on that distance.");
+    d(OptionFor::kExperts, "kernel_m", kernel_m, Range<double>{1e-3, 100.0},
+      "Width of the kernel.");
+  }
 };
 
 /// What the factors take: errors that are shared make sigma larger.

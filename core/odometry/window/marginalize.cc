@@ -46,12 +46,16 @@ void Untie(const Vector6d& velocity_before, Segment* segment) {
 
 }  // namespace
 
+MarginalizationPrior AnchorOf(const SE3& T_world_first) {
+  constexpr double kSigma_m = 1e-3, kSigma_rad = 1e-3;
+  return MakeAnchor(T_world_first, kSigma_m, kSigma_rad);
+}
+
 MarginalizationPrior PriorWithoutFirstPose(const Window& window,
                                            const MarginalizationOptions& options) {
   const std::vector<SE3> poses = window.Poses();
   if (!options.enabled) {
-    return MakeAnchor(poses[1], options.anchor_sigma_translation_m,
-                      options.anchor_sigma_rotation_rad);
+    return AnchorOf(poses[1]);
   }
   const int touched = TouchedPoses(window);
   Rows rows(12 + 2 * 6 + 6 * window.prior.poses(), 6 * touched);

@@ -2,20 +2,29 @@
 #pragma once
 
 #include "core/odometry/window/window.h"
+#include "core/options/describe.h"
 
 namespace trajlo {
 
 struct MarginalizationOptions {
-  /// Off: what leaves the window is forgotten, and its last pose is held by the anchor's sigmas.
   bool enabled = true;
-  /// Keeps the Jacobian of the prior as it was where the poses left.
   bool first_estimate_jacobians = false;
-  /// Orthogonal elimination instead of the Schur complement.
   bool use_qr = false;
-  /// Standard deviations with which the first control pose of a recording is held.
-  double anchor_sigma_translation_m = 1e-3;
-  double anchor_sigma_rotation_rad = 1e-3;
+
+  template <typename Describer>
+  void Describe(Describer& d) {
+    d(OptionFor::kExperts, "enabled", enabled,
+      "false: what leaves the window is forgotten, and its last pose is held as the first pose of "
+      "a recording is.");
+    d(OptionFor::kExperts, "first_estimate_jacobians", first_estimate_jacobians,
+      "Keeps the Jacobian of the prior as it was where the poses left.");
+    d(OptionFor::kExperts, "use_qr", use_qr,
+      "Orthogonal elimination in place of the Schur complement.");
+  }
 };
+
+/// Holds the first control pose of a recording.
+MarginalizationPrior AnchorOf(const SE3& T_world_first);
 
 /// The prior of the window without its first control pose: that pose is eliminated from all terms
 /// that touch it, at the state in which the window is left, so that the linear term needs no

@@ -21,13 +21,11 @@ SmoothnessTerm BeginVelocity(const Vector6d& velocity, double duration_s) {
 
 }  // namespace
 
-Window MakeWindow(std::int64_t begin_ns, const SE3& T_world_begin,
-                  const MarginalizationOptions& options) {
+Window MakeWindow(std::int64_t begin_ns, const SE3& T_world_begin) {
   Window window;
   window.begin_ns = begin_ns;
   window.T_world_begin = T_world_begin;
-  window.prior = MakeAnchor(T_world_begin, options.anchor_sigma_translation_m,
-                            options.anchor_sigma_rotation_rad);
+  window.prior = AnchorOf(T_world_begin);
   return window;
 }
 

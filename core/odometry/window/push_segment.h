@@ -8,8 +8,7 @@
 namespace trajlo {
 
 /// A window without segments, held at its one control pose by the anchor, at rest.
-Window MakeWindow(std::int64_t begin_ns, const SE3& T_world_begin,
-                  const MarginalizationOptions& options);
+Window MakeWindow(std::int64_t begin_ns, const SE3& T_world_begin);
 
 /// Adds a segment that begins where the window ends. Its control pose is predicted by the velocity
 /// of the segment before; the first segment of a window is tied to `begin_velocity`.

@@ -50,8 +50,8 @@ LockstepRun RunAll(const std::vector<SolverVariant>& variants, int every) {
 TEST(Lockstep, AllSolversOfOneEnergyEndAtTheSamePosesAndCost) {
   const std::vector<SolverVariant> variants = {
       Variant("gauss_newton", "solver.kind=gauss_newton"), Variant("ceres", ""),
-      Variant("dogleg", "solver.ceres.trust_region=dogleg"),
-      Variant("point", "solver.ceres.registration=point")};
+      Variant("dogleg", "expert.solver.ceres.trust_region=dogleg"),
+      Variant("point", "expert.solver.ceres.registration=point")};
   const LockstepRun run = RunAll(variants, 1);
   ASSERT_GT(run.windows, 5);
   ASSERT_EQ(run.records.size(), 4u * static_cast<std::size_t>(run.windows));
@@ -70,7 +70,7 @@ TEST(Lockstep, AllSolversOfOneEnergyEndAtTheSamePosesAndCost) {
 
 TEST(Lockstep, DoesNotChangeTheRunAndComparesEveryNthWindow) {
   const LockstepRun all = RunAll({Variant("gauss_newton", "solver.kind=gauss_newton")}, 1);
-  const LockstepRun some = RunAll({Variant("tukey", "registration.kernel=tukey")}, 3);
+  const LockstepRun some = RunAll({Variant("tukey", "expert.registration.kernel=tukey")}, 3);
   EXPECT_EQ(some.records.size(), static_cast<std::size_t>((some.windows + 2) / 3));
   ASSERT_EQ(all.poses.size(), some.poses.size());
   for (std::size_t i = 0; i < all.poses.size(); ++i) {

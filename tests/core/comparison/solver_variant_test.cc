@@ -27,7 +27,7 @@ TEST(SolverVariants, AreTheCommonConfigurationWithChanges) {
   const auto variants = Load(
       "variants:\n"
       "  - {name: plain}\n"
-      "  - {name: paper, set: \"solver.kind=gauss_newton,map.levels=1\"}\n",
+      "  - {name: paper, set: \"solver.kind=gauss_newton,expert.map.levels=1\"}\n",
       base);
   ASSERT_EQ(variants.size(), 2u);
   EXPECT_EQ(variants[0].odometry.solver.kind, SolverKind::kCeres);
@@ -53,8 +53,8 @@ TEST(SolverVariants, OnlySolverKernelAndLinearisationConcernASingleWindow) {
   const RunConfig base;
   const auto variants = Load(
       "variants:\n"
-      "  - {name: a, set: \"solver.kind=gauss_newton,registration.kernel=huber\"}\n"
-      "  - {name: b, set: \"marginalization.first_estimate_jacobians=false\"}\n"
+      "  - {name: a, set: \"solver.kind=gauss_newton,expert.registration.kernel=huber\"}\n"
+      "  - {name: b, set: \"expert.marginalization.first_estimate_jacobians=false\"}\n"
       "  - {name: c, set: \"window.segments=2\"}\n"
       "  - {name: d, set: \"registration.sigma_m=0.2\"}\n");
   EXPECT_TRUE(IsAboutOneWindow(variants[0], base));

@@ -42,8 +42,11 @@ constexpr std::size_t FieldCount() {
 std::size_t KeysIn(const std::string& section) {
   std::size_t count = 0;
   for (const KeyInfo& info : ListKeys()) {
-    const std::size_t dot = info.key.rfind('.');
-    count += info.key.substr(0, dot == std::string::npos ? 0 : dot) == section ? 1 : 0;
+    const std::string expert = "expert.";
+    const std::string key =
+        info.key.rfind(expert, 0) == 0 ? info.key.substr(expert.size()) : info.key;
+    const std::size_t dot = key.rfind('.');
+    count += key.substr(0, dot == std::string::npos ? 0 : dot) == section ? 1 : 0;
   }
   return count;
 }
@@ -88,10 +91,23 @@ std::string FirstDifference(const std::string& a, const std::string& b) {
   return std::getline(lines_b, line_b) ? " | " + line_b : "";
 }
 
-TEST(ConfigCompleteness, DefaultYamlIsUpToDate) {
-  const std::filesystem::path path = std::filesystem::path(TRAJLO_CONFIG_DIR) / "default.yaml";
-  EXPECT_EQ(FirstDifference(ReadFile(path), DumpConfig(RunConfig())), "")
+TEST(ConfigCompleteness, DefaultAndExpertYamlAreUpToDate) {
+  const std::filesystem::path folder = TRAJLO_CONFIG_DIR;
+  EXPECT_EQ(FirstDifference(ReadFile(folder / "default.yaml"),
+                            DumpConfig(RunConfig(), DumpedOptions::kForUsers)),
+            "")
       << "regenerate it: trajlo_run --show_config > config/default.yaml";
+  EXPECT_EQ(FirstDifference(ReadFile(folder / "expert.yaml"),
+                            DumpConfig(RunConfig(), DumpedOptions::kForExperts)),
+            "")
+      << "regenerate it: trajlo_run --show_expert_config > config/expert.yaml";
+}
+
+TEST(ConfigCompleteness, AUserMeetsFewOptions) {
+  int users = 0, experts = 0;
+  for (const KeyInfo& info : ListKeys()) ++(info.key.rfind("expert.", 0) == 0 ? experts : users);
+  EXPECT_LE(users, 25);
+  EXPECT_LE(experts, 41);
 }
 
 TEST(ConfigCompleteness, EveryShippedConfigLoadsAndPassesTheChecks) {

@@ -22,14 +22,14 @@ using trajlo::testing::Overridden;
 using trajlo::testing::OverrideError;
 
 TEST(Config, SetsWhatTheFileSaysAndKeepsTheRest) {
-  const RunConfig config = Loaded("window:\n  segments: 7\nmap: {kind: kd_tree}\n");
+  const RunConfig config = Loaded("window:\n  segments: 7\nexpert: {map: {kind: kd_tree}}\n");
   EXPECT_EQ(config.odometry.window.segments, 7);
   EXPECT_EQ(config.odometry.map.finest.kind, MapKind::kKdTree);
   EXPECT_EQ(config.odometry.map.finest.voxel_size_m, RunConfig().odometry.map.finest.voxel_size_m);
 }
 
 TEST(Config, LaterFileOverridesEarlierOne) {
-  RunConfig config = Loaded("window: {segments: 7}\nsolver: {max_rounds: 3}");
+  RunConfig config = Loaded("window: {segments: 7}\nexpert: {solver: {max_rounds: 3}}");
   LoadConfigText("window: {segments: 2}", "second.yaml", &config);
   EXPECT_EQ(config.odometry.window.segments, 2);
   EXPECT_EQ(config.odometry.solver.max_rounds, 3);
@@ -41,7 +41,7 @@ TEST(Config, EmptyFileAndEmptySectionChangeNothing) {
 }
 
 TEST(Config, UnknownKeyNamesFileLineColumnAndNearestKey) {
-  EXPECT_THAT(LoadingError("map:\n  kind: kd_tree\n  voxel_sise_m: 1.0\n"),
+  EXPECT_THAT(LoadingError("map:\n  radius_m: 50\n  voxel_sise_m: 1.0\n"),
               AllOf(StartsWith("my.yaml:3:3: "), HasSubstr("unknown key 'map.voxel_sise_m'"),
                     HasSubstr("did you mean 'map.voxel_size_m'?")));
 }
@@ -53,8 +53,9 @@ TEST(Config, KeyInTheWrongSectionIsRecognisedByItsLastPart) {
 }
 
 TEST(Config, UnknownKeyWithoutANearOneListsItsSection) {
-  EXPECT_THAT(LoadingError("lost: {xyzzyplugh: 3}"),
-              AllOf(HasSubstr("lost.min_inlier_share"), HasSubstr("lost.max_duration_s")));
+  EXPECT_THAT(
+      LoadingError("expert: {lost: {xyzzyplugh: 3}}"),
+      AllOf(HasSubstr("expert.lost.min_inlier_share"), HasSubstr("expert.lost.max_duration_s")));
   EXPECT_THAT(LoadingError("xyzzyplugh: 3"), HasSubstr("--show_config"));
 }
 
@@ -121,11 +122,12 @@ TEST(Overrides, ErrorsNameTheFlagAndTheKeyButNoLine) {
 
 TEST(Config, DumpLoadsBackToTheSameValues) {
   RunConfig config = Overridden(
-      "window.segments=3,map.kind=kd_tree,registration.kernel=tukey,solver.ceres.trust_region="
+      "window.segments=3,expert.map.kind=kd_tree,expert.registration.kernel=tukey,expert.solver."
+      "ceres.trust_region="
       "dogleg,"
-      "registration.sigma_m=0.1234567890123456,solver.ceres.initial_trust_region_radius=1e7,"
+      "registration.sigma_m=0.1234567890123456,expert.solver.ceres.initial_trust_region_radius=1e7,"
       "input.time_field='a \"b\": #c',input.stamps_file=x/y.txt,input.point_time=none,"
-      "input.time_unit=us,input.stamp_at=end,marginalization.enabled=false");
+      "input.time_unit=us,input.stamp_at=end,expert.marginalization.enabled=false");
   const Eigen::Quaterniond q = Eigen::Quaterniond(0.3, -0.2, 0.7, 0.1).normalized();
   config.odometry.segmenter.T_body_lidar = {{q, {0.1, 1.0 / 3.0, -1e-9}}, SE3()};
   const RunConfig back = Loaded(DumpConfig(config));
@@ -153,11 +155,12 @@ TEST(Config, ContradictionsNameBothKeysAndTheirValues) {
   };
   EXPECT_THAT(problem("sensor.min_range_m=5,sensor.max_range_m=4"),
               AllOf(HasSubstr("sensor.min_range_m (5.0)"), HasSubstr("sensor.max_range_m (4.0)")));
-  EXPECT_THAT(problem("segmenter.map_voxel_m=1,segmenter.registration_voxel_m=0.5"),
-              HasSubstr("segmenter.registration_voxel_m (0.5)"));
+  EXPECT_THAT(problem("expert.segmenter.map_voxel_m=1,expert.segmenter.registration_voxel_m=0.5"),
+              HasSubstr("expert.segmenter.registration_voxel_m (0.5)"));
   for (const char* settings :
-       {"segmenter.interval_s=0.5", "segmenter.max_gap_s=0.02", "map.min_point_spacing_m=0.9",
-        "map.radius_m=2,map.voxel_size_m=3", "map.plane.neighbors=3"}) {
+       {"segmenter.interval_s=0.5", "expert.segmenter.max_gap_s=0.02",
+        "expert.map.min_point_spacing_m=0.9", "map.radius_m=2,map.voxel_size_m=3",
+        "expert.map.plane.neighbors=3"}) {
     EXPECT_NE(problem(settings), "") << settings;
   }
 }
