@@ -16,6 +16,7 @@
 #include "core/io/trajectory_writer.h"
 #include "core/odometry/odometry.h"
 #include "core/report/covariance_csv.h"
+#include "core/report/flag_warnings.h"
 #include "core/report/processing_time.h"
 #include "core/report/progress_bar.h"
 #include "core/report/resource_usage.h"
@@ -89,7 +90,7 @@ class Run {
     for (std::size_t count = 0; !stop && recording_->Next(&scan); ++count) {
       Timed([&] { odometry_.AddScan(scan); });
       sampler_.Advance(odometry_.trajectory(), [&](std::int64_t t_ns, const SE3& T) {
-        trajectory_.Append(t_ns, T);
+        Append(t_ns, T);
         return !stop;
       });
       const std::int64_t data_ns = newest_ns_ - first_ns_.value_or(newest_ns_);
@@ -101,11 +102,16 @@ class Run {
 
   /// Completes the files that grew and writes those that did not.
   void Write() {
-    sampler_.Finish(odometry_.trajectory(), Append());
+    sampler_.Finish(odometry_.trajectory(), [this](std::int64_t t_ns, const SE3& T) {
+      Append(t_ns, T);
+      return true;
+    });
     trajectory_.Flush();
     trajectory_.Close();
     windows_.Close();
     if (covariance_) covariance_->Close();
+    // Only now it is known from when on the run was lost.
+    WriteTextFile(folder_.flags(), FlagsCsv(Flags(), written_ns_), IfExists::kReplace);
     std::vector<CloudPoint> points;
     odometry_.map().finest().ForEachPoint([&](const Eigen::Vector3d& p) {
       points.push_back({p.cast<float>(), 0.0F});
@@ -140,10 +146,11 @@ class Run {
       s.distance_to_start_m = (poses.back().T_world_body.t - poses.front().T_world_body.t).norm();
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      s.poses_flagged += poses[i].flags != 0 ? 1 : 0;
       if (i == 0) continue;
       s.path_length_m += (poses[i].T_world_body.t - poses[i - 1].T_world_body.t).norm();
     }
+    s.flags = Flags();
+    for (const std::string& warning : FlagWarnings(s)) s.warnings.push_back(warning);
     s.estimation_s = 1e-3 * processing_.total_ms();
     if (s.end_ns) {
       const ProcessingTime::Quantiles quantiles = processing_.PerSecondOfData(*s.end_ns);
@@ -161,12 +168,12 @@ class Run {
     if (first_ns_) processing_.Add(newest_ns_, 1e3 * SecondsSince(begin));
   }
 
-  TrajectorySampler::Visit Append() {
-    return [this](std::int64_t t_ns, const SE3& T) {
-      trajectory_.Append(t_ns, T);
-      return true;
-    };
+  void Append(std::int64_t t_ns, const SE3& T_world_body) {
+    trajectory_.Append(t_ns, T_world_body);
+    written_ns_.push_back(t_ns);
   }
+
+  PoseFlags Flags() const { return {odometry_.trajectory().poses(), odometry_.lost_at_ns()}; }
 
   const RunRequest& request_;
   const ResultFolder& folder_;
@@ -181,6 +188,7 @@ class Run {
   ProcessingTime processing_;
   std::optional<std::int64_t> first_ns_;  ///< Stamps of the scans that were used.
   std::int64_t newest_ns_ = 0;
+  std::vector<std::int64_t> written_ns_;  ///< Times of the poses in the trajectory file.
   double inlier_share_ = 0.0;
 };
 
@@ -203,7 +211,8 @@ void JudgeOutcome(bool interrupted, RunSummary* s) {
   } else if (s->lost_at_ns) {
     End(ExitCode::kLost, "lost",
         "the estimator got lost at " + FormatSeconds(*s->lost_at_ns) +
-            " s; poses from there on are not to be trusted (windows.csv shows what happened)",
+            " s; poses from there on are not to be trusted (flags.csv and windows.csv show what "
+            "happened)",
         s);
   } else if (const std::string missing = s->MissingInput(); !missing.empty()) {
     End(ExitCode::kPartialInput, "partial_input", missing + "; the warnings say more", s);

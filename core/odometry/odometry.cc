@@ -2,6 +2,7 @@
 #include "core/odometry/odometry.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/odometry/health/belief.h"
@@ -13,6 +14,13 @@
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
+namespace {
+
+/// How well a place is known that was found in the map.
+constexpr double kFoundSigma_m = 0.2;
+constexpr double kFoundSigma_rad = 0.05;
+
+}  // namespace
 
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
     : options_(options),
@@ -40,9 +48,8 @@ void Odometry::Finish() {
   segmenter_.Finish();
   ProcessSegments();
   if (!started_) return;
-  WindowStatistics unused;
-  while (window_.size() > 0) Leave(&unused);
-  SettleFront();
+  if (search_ && search_->HasPoints()) Search(true);
+  SettleWindow(std::numeric_limits<std::int64_t>::max());
 }
 
 PointCounts Odometry::point_counts() const {
@@ -58,14 +65,22 @@ void Odometry::ProcessSegments() {
     std::optional<SegmentCloud> cloud = segmenter_.Next();
     segment_ms_ += watch.Milliseconds();
     if (!cloud) return;
-    if (!started_) {
-      Start(*cloud);
-    } else if (cloud->is_gap) {
-      BridgeGap(*cloud);
+    if (started_) {
+      Take(std::move(*cloud));
     } else {
-      Step(std::move(*cloud));
+      Start(*cloud);
     }
   }
+}
+
+void Odometry::Take(SegmentCloud cloud) {
+  if (cloud.is_gap && !search_) BeginSearch();
+  if (!search_) {
+    Step(std::move(cloud));
+    return;
+  }
+  search_->Add(std::move(cloud));
+  if (search_->IsDue()) Search(false);
 }
 
 /// The first interval: its motion, then its points into the map.
@@ -76,12 +91,21 @@ void Odometry::Start(const SegmentCloud& cloud) {
   if (duration_s > 0.0) {
     tau = MotionOfFirstInterval(cloud, options_.initialization, options_.map, options_.registration,
                                 &threads_);
-    Settle({cloud.begin_ns, SE3(), 0}, Matrix6d::Zero());
   }
-  const SE3 T_end = se3::Exp(tau);
-  AddToMap(cloud, SE3(), T_end);
+  BeginMap(cloud, SE3(), tau, 0);
+}
+
+/// A map of one interval alone, and a window that begins where it ends.
+void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau,
+                        unsigned flags) {
+  const double duration_s = 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns);
+  if (duration_s > 0.0) Settle({cloud.begin_ns, T_begin, flags}, Matrix6d::Zero());
+  const SE3 T_end = T_begin * se3::Exp(tau);
+  AddToMap(cloud, T_begin, T_end);
   window_ = MakeWindow(cloud.end_ns, T_end);
+  window_.begin_flags = flags;
   if (duration_s > 0.0) window_.begin_velocity = tau / duration_s;
+  starvation_.Fed(cloud.end_ns);
 }
 
 /// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.
@@ -94,7 +118,19 @@ void Odometry::Step(SegmentCloud cloud) {
   WindowStatistics statistics;
   AssociateAndSolve(&statistics);
   statistics.SetCorrection(predicted.back(), window_.segments.back().T_world_end);
-  window_.is_believed = IsBelievable(statistics, options_.lost);
+  const bool is_starved =
+      IsStarved(window_, window_.segments.back(), options_.lost.min_inlier_share);
+  if (is_starved && starvation_.IsBlind(window_.EndNs(), motion_prior_.density())) {
+    cloud = std::move(window_.segments.back().cloud);
+    Revert(predicted, &window_);
+    window_.segments.pop_back();
+    BeginSearch();
+    Take(std::move(cloud));
+    return;
+  }
+  if (!is_starved) starvation_.Fed(window_.EndNs());
+  window_.is_believed = IsBelievable(statistics, window_, options_.lost) &&
+                        (!is_starved || window_.segments.back().points.empty());
   if (window_.is_believed) {
     Learn(predicted.back());
   } else {
@@ -138,7 +174,8 @@ void Odometry::Leave(WindowStatistics* statistics) {
   const SE3 T_begin = window_.T_world_begin;
   const Segment oldest = Marginalize(options_.marginalization, &window_);
   statistics->milliseconds_marginalize = watch.Milliseconds();
-  AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
+  // What no plane agrees with may be a hand before the LiDAR.
+  if ((oldest.flags & kFlagNoPoints) == 0) AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
   map_.RemoveFar(oldest.T_world_end.t);
   statistics->milliseconds_map = watch.Milliseconds();
 }
@@ -155,24 +192,81 @@ void Odometry::Report(WindowStatistics* statistics) {
   if (on_window_) on_window_(*statistics);
 }
 
-/// A pause longer than max_gap_s: nobody knows what happened. The pose is held, at rest.
-void Odometry::BridgeGap(const SegmentCloud& gap) {
+/// From the end of the window on, nobody knows where the body is.
+void Odometry::BeginSearch() {
+  const int size = window_.size();
+  const Vector6d velocity = size > 0 ? window_.Velocity(size - 1) : window_.begin_velocity;
+  search_.emplace(LastSeen{starvation_.fed_until_ns(), window_.EndNs(), window_.Pose(size),
+                           velocity, motion_prior_.density()},
+                  attitude_, options_);
+}
+
+/// Looks for the newest points in the map.
+void Odometry::Search(bool is_last) {
+  const ReturnSweep sweep = search_->Look(map_, &threads_);
+  const LastSeen& last = search_->last();
+  const double unseen_s = 1e-9 * static_cast<double>(sweep.cloud.begin_ns - last.t_ns);
+  if (sweep.T_world_begin &&
+      IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s, options_.lost)) {
+    Resume(sweep);
+  } else if (is_last || search_->IsHopeless()) {
+    GetLost(sweep);
+  }
+}
+
+/// The place is found: a new window begins there, and takes what has come since.
+void Odometry::Resume(const ReturnSweep& sweep) {
+  SettleWindow(sweep.cloud.begin_ns);
+  const SE3& T_world_begin = *sweep.T_world_begin;
+  window_ = MakeWindow(sweep.cloud.begin_ns, T_world_begin);
+  window_.prior = MakeAnchor(T_world_begin, kFoundSigma_m, kFoundSigma_rad);
+  window_.begin_flags = kFlagGap;
+  std::vector<SegmentCloud> segments = search_->TakeSegments();
+  if (sweep.cloud.end_ns > sweep.cloud.begin_ns) {
+    window_.begin_velocity =
+        1e9 / static_cast<double>(sweep.cloud.end_ns - sweep.cloud.begin_ns) * sweep.tau;
+  } else {
+    const LastSeen& last = search_->last();
+    window_.begin_velocity = 1e9 / static_cast<double>(sweep.cloud.begin_ns - last.t_ns) *
+                             Minus(T_world_begin, last.T_world_body);
+    AddToMap(sweep.cloud, T_world_begin, T_world_begin);
+    segments.clear();
+  }
+  starvation_.Fed(sweep.cloud.begin_ns);
+  loss_watch_ = LossWatch(options_.lost);
+  search_.reset();
+  for (SegmentCloud& segment : segments) Take(std::move(segment));
+}
+
+/// The place is not found. What comes now is a recording by itself, placed where the body would be
+/// if it had gone on as it did.
+void Odometry::GetLost(const ReturnSweep& sweep) {
+  SettleWindow(sweep.cloud.begin_ns);
+  if (!lost_at_ns_) lost_at_ns_ = starvation_.fed_until_ns() + 1;
+  map_ = MapPyramid(options_.map);
+  BeginMap(sweep.cloud, search_->Predict(sweep.cloud.begin_ns), sweep.tau, kFlagGap | kFlagLost);
+  search_.reset();
+}
+
+/// All poses of the window that lie before `before_ns` are final.
+void Odometry::SettleWindow(std::int64_t before_ns) {
   WindowStatistics unused;
   while (window_.size() > 0) Leave(&unused);
-  window_.begin_flags |= kFlagGap;
-  SettleFront();
-  window_ = MakeWindow(gap.end_ns, window_.T_world_begin);
+  if (window_.begin_ns < before_ns) SettleFront();
 }
 
 /// The pose at the front of the window is final.
 void Odometry::SettleFront() {
   const Matrix6d covariance =
       on_pose_ ? PoseCovariance(AssembleWindow(window_), 0) : Matrix6d(Matrix6d::Zero());
-  Settle({window_.begin_ns, window_.T_world_begin, window_.begin_flags}, covariance);
+  const bool is_lost = lost_at_ns_ && window_.begin_ns >= *lost_at_ns_;
+  const unsigned flags = window_.begin_flags | (is_lost ? kFlagLost : 0U);
+  Settle({window_.begin_ns, window_.T_world_begin, flags}, covariance);
 }
 
 void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
   trajectory_.Append(pose);
+  attitude_.Add(pose.T_world_body.q);
   if (on_pose_) on_pose_(pose, options_.covariance_scale * covariance);
 }
 

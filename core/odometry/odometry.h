@@ -6,11 +6,13 @@
 #include <memory>
 #include <optional>
 
+#include "core/odometry/health/starvation.h"
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
 #include "core/odometry/parallel/parallel_for.h"
 #include "core/odometry/sensing/scan_sequencer.h"
 #include "core/odometry/solvers/window_solver.h"
+#include "core/odometry/start/return_search.h"
 #include "core/odometry/trajectory/trajectory.h"
 #include "core/odometry/window/window.h"
 
@@ -62,12 +64,18 @@ class Odometry {
   void CutSegments(const LidarScan& scan);
   void ProcessSegments();
   void Start(const SegmentCloud& cloud);
+  void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau, unsigned flags);
+  void Take(SegmentCloud cloud);
   void Step(SegmentCloud cloud);
-  void BridgeGap(const SegmentCloud& gap);
+  void BeginSearch();
+  void Search(bool is_last);
+  void Resume(const ReturnSweep& sweep);
+  void GetLost(const ReturnSweep& sweep);
   void AssociateAndSolve(WindowStatistics* statistics);
   void Learn(const SE3& T_world_predicted);
   void Leave(WindowStatistics* statistics);
   void Report(WindowStatistics* statistics);
+  void SettleWindow(std::int64_t before_ns);
   void SettleFront();
   void Settle(const ControlPose& pose, const Matrix6d& covariance);
   void AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end);
@@ -80,6 +88,9 @@ class Odometry {
   MotionPrior motion_prior_;
   std::unique_ptr<WindowSolver> solver_;
   LossWatch loss_watch_;
+  StarvationWatch starvation_;
+  MeanAttitude attitude_;
+  std::optional<ReturnSearch> search_;  ///< While nobody knows where the body is.
   Window window_;
   Trajectory trajectory_;
   std::function<void(const LidarScan&)> on_scan_;

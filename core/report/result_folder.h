@@ -17,6 +17,8 @@ class ResultFolder {
   /// A thinned choice of the scans, for pictures.
   std::filesystem::path view() const { return path_ / "view.ply"; }
   std::filesystem::path windows() const { return path_ / "windows.csv"; }
+  /// What can be said against each pose of the trajectory.
+  std::filesystem::path flags() const { return path_ / "flags.csv"; }
   /// Only if it was asked for.
   std::filesystem::path covariance() const { return path_ / "covariance.csv"; }
   std::filesystem::path config() const { return path_ / "config.yaml"; }

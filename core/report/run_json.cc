@@ -52,12 +52,21 @@ Json InputJson(const RunSummary& s) {
             {"without_time", s.read.points_without_time}}}};
 }
 
+Json FlaggedJson(const PoseFlags& flags) {
+  Json json = Json::object();
+  for (const auto& [name, total] : flags.totals()) {
+    json[name] = {{"poses", total.poses}, {"seconds", total.seconds}};
+  }
+  return json;
+}
+
 Json ResultJson(const RunSummary& s) {
   return {{"begin_s", SecondsOrNull(s.begin_ns)},
           {"end_s", SecondsOrNull(s.end_ns)},
           {"duration_s", s.DataSeconds()},
           {"poses_written", s.poses_written},
-          {"poses_flagged", s.poses_flagged},
+          {"poses_flagged", s.flags.any().poses},
+          {"flagged", FlaggedJson(s.flags)},
           {"path_length_m", s.path_length_m},
           {"distance_to_start_m", s.distance_to_start_m},
           {"lost_at_s", SecondsOrNull(s.lost_at_ns)},

@@ -9,6 +9,7 @@
 #include "core/io/scan_source.h"
 #include "core/odometry/sensing/segment_cloud.h"
 #include "core/odometry/sensing/time_report.h"
+#include "core/report/pose_flags.h"
 #include "core/report/window_totals.h"
 
 namespace trajlo {
@@ -37,7 +38,7 @@ struct RunSummary {
   // What came out.
   WindowTotals windows;
   std::size_t poses_written = 0;
-  std::size_t poses_flagged = 0;
+  PoseFlags flags;  ///< Of the control poses.
   std::size_t map_points = 0;
   std::optional<std::int64_t> begin_ns, end_ns, lost_at_ns;
   double path_length_m = 0.0;

@@ -34,10 +34,14 @@ std::string Dropped(const RunSummary& s) {
   return text.empty() ? "nothing" : text + " of " + std::to_string(s.points.received) + " points";
 }
 
-std::string Flagged(const WindowTotals& windows) {
+/// "gap 1 (2.0 s), ...": control poses, and the time that they stand for.
+std::string Flagged(const PoseFlags& flags) {
   std::string text;
-  for (const auto& [name, count] : windows.flags) AddCount(count, name.c_str(), &text);
-  return text;
+  for (const auto& [name, total] : flags.totals()) {
+    if (total.poses == 0) continue;
+    text += (text.empty() ? "" : ", ") + name + Format(" %zu (%.1f s)", total.poses, total.seconds);
+  }
+  return text.empty() ? text : text + "; see flags.csv";
 }
 
 /// "associate 61 %, solve 20 %, ..." of the time that the windows took.
@@ -67,7 +71,7 @@ std::string SummaryTable(const RunSummary& s) {
                           Format(", %.0f points each, %.0f %% inliers, %.1f rounds",
                                  s.windows.Mean(s.windows.points), 100.0 * s.windows.InlierShare(),
                                  s.windows.Mean(s.windows.rounds)));
-  const std::string flagged = Flagged(s.windows);
+  const std::string flagged = Flagged(s.flags);
   if (!flagged.empty()) table += Line("flagged", flagged);
   table +=
       Line("speed", Format("%.1f x real time; per second of data: median %.0f ms, 95 %% within "

@@ -4,15 +4,9 @@
 #include "core/report/window_csv.h"
 
 namespace trajlo {
-namespace {
-
-constexpr unsigned kFlags[] = {kFlagNoPoints,     kFlagGap,        kFlagReverted,
-                               kFlagNotConverged, kFlagDegenerate, kFlagLost};
-
-}  // namespace
 
 WindowTotals::WindowTotals() {
-  for (const unsigned flag : kFlags) flags[FlagNames(flag)] = 0;
+  for (const unsigned flag : kAllFlags) flags[FlagNames(flag)] = 0;
 }
 
 void WindowTotals::Add(const WindowStatistics& window) {
@@ -27,7 +21,13 @@ void WindowTotals::Add(const WindowStatistics& window) {
   solve_ms += window.milliseconds_solve;
   marginalize_ms += window.milliseconds_marginalize;
   map_ms += window.milliseconds_map;
-  for (const unsigned flag : kFlags) flags[FlagNames(flag)] += (window.flags & flag) != 0 ? 1 : 0;
+  for (const unsigned flag : kAllFlags) {
+    flags[FlagNames(flag)] += (window.flags & flag) != 0 ? 1 : 0;
+  }
+  if ((window.flags & kFlagDegenerate) != 0) {
+    const std::string axis = AxisName(window.weak_direction);
+    if (!axis.empty()) ++weak_axes[axis];
+  }
 }
 
 }  // namespace trajlo

@@ -24,6 +24,8 @@ struct WindowTotals {
   double map_ms = 0.0;
   /// How many windows had each flag, by its name; those that never occurred included.
   std::map<std::string, std::int64_t> flags;
+  /// How many of the degenerate windows are weakest along each axis (see AxisName).
+  std::map<std::string, std::int64_t> weak_axes;
 
   WindowTotals();
   void Add(const WindowStatistics& window);

@@ -28,7 +28,14 @@ bool FaultInjector::Apply(SimulatedScan* simulated) {
   const bool silent = scan.lidar_id == config_.silent_lidar &&
                       true_start_ns >= start_ns_ + ToNs(config_.silent_from_s) &&
                       true_start_ns < start_ns_ + ToNs(config_.silent_until_s);
-  if (drop || silent) return false;
+  const bool paused = IsWithin(true_start_ns, config_.pause_from_s, config_.pause_s);
+  if (drop || silent || paused) return false;
+
+  for (LidarPoint& point : scan.points) {
+    const std::int64_t true_ns = true_start_ns + point.t_ns - simulated->sweep_start_ns;
+    if (!IsWithin(true_ns, config_.cover_from_s, config_.cover_s)) continue;
+    point.xyz_m *= static_cast<float>(config_.cover_m) / point.xyz_m.norm();
+  }
 
   std::int64_t shift_ns = ToNs(jitter_s);
   const std::int64_t end_ns = config_.end_of_sweep_stamps ? simulated->period_ns : 0;
@@ -50,6 +57,10 @@ bool FaultInjector::Apply(SimulatedScan* simulated) {
     }
   }
   return true;
+}
+
+bool FaultInjector::IsWithin(std::int64_t true_ns, double from_s, double duration_s) const {
+  return true_ns >= start_ns_ + ToNs(from_s) && true_ns < start_ns_ + ToNs(from_s + duration_s);
 }
 
 bool FaultInjector::Repeats(const SimulatedScan& simulated) const {

@@ -27,6 +27,13 @@ struct FaultConfig {
   int silent_lidar = -1;
   double silent_from_s = 0.0;
   double silent_until_s = 0.0;
+  /// For so long, nothing is recorded (from the start of the recording on; 0: never).
+  double pause_from_s = 0.0;
+  double pause_s = 0.0;
+  /// For so long, all LiDARs look at a cover: every point is `cover_m` away.
+  double cover_from_s = 0.0;
+  double cover_s = 0.0;
+  double cover_m = 0.6;
   /// Stamps mark the end of the sweep; the offsets of the points still count from its start.
   bool end_of_sweep_stamps = false;
 };
@@ -44,6 +51,9 @@ class FaultInjector {
   bool Repeats(const SimulatedScan& simulated) const;
 
  private:
+  /// Whether a true time lies in a stretch of the recording.
+  bool IsWithin(std::int64_t true_ns, double from_s, double duration_s) const;
+
   FaultConfig config_;
   std::uint64_t seed_;
   std::int64_t start_ns_;

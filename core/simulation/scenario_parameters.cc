@@ -158,6 +158,11 @@ std::vector<Parameter> Parameters(Scenario* s) {
       {"faults.silent_lidar", &f.silent_lidar},
       {"faults.silent_from_s", &f.silent_from_s},
       {"faults.silent_until_s", &f.silent_until_s},
+      {"faults.pause_from_s", &f.pause_from_s},
+      {"faults.pause_s", &f.pause_s},
+      {"faults.cover_from_s", &f.cover_from_s},
+      {"faults.cover_s", &f.cover_s},
+      {"faults.cover_m", &f.cover_m},
       {"faults.end_of_sweep_stamps", &f.end_of_sweep_stamps},
   };
   for (std::size_t id = 0; id < s->rig.size(); ++id) {

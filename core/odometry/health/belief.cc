@@ -2,12 +2,25 @@
 #include "core/odometry/health/belief.h"
 
 #include "core/odometry/health/condition.h"
+#include "core/odometry/health/starvation.h"
 
 namespace trajlo {
 
-bool IsBelievable(const WindowStatistics& statistics, const LostOptions& options) {
+bool IsBelievable(const WindowStatistics& statistics, const Window& window,
+                  const LostOptions& options) {
+  for (int k = 0; k < window.size(); ++k) {
+    const double duration_s = window.segments[static_cast<std::size_t>(k)].Duration_s();
+    if (!IsWithinReach(window.Pose(k), window.Pose(k + 1), duration_s, options)) return false;
+  }
   return statistics.is_finite && statistics.correction_m <= options.max_correction_m &&
          statistics.correction_rad <= options.max_correction_rad;
+}
+
+bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s,
+                   const LostOptions& options) {
+  const SE3 between = T_world_begin.Inverse() * T_world_end;
+  return between.t.norm() <= options.max_speed_m_s * duration_s &&
+         so3::Log(between.q).norm() <= options.max_turn_rate_rad_s * duration_s;
 }
 
 void Revert(const std::vector<SE3>& poses, Window* window) {
@@ -21,7 +34,9 @@ void Judge(const Window& window, const LostOptions& options, WindowStatistics* s
   } else if (!statistics->has_converged) {
     statistics->flags |= kFlagNotConverged;
   }
-  if (window.segments.back().points.empty()) statistics->flags |= kFlagNoPoints;
+  if (IsStarved(window, window.segments.back(), options.min_inlier_share)) {
+    statistics->flags |= kFlagNoPoints;
+  }
   const WindowCondition condition = ConditionOf(window);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;

@@ -6,9 +6,14 @@
 
 namespace trajlo {
 
-/// Whether the solution is finite, and the newest pose no farther from its prediction than a sensor
-/// can have moved.
-bool IsBelievable(const WindowStatistics& statistics, const LostOptions& options);
+/// Whether the solution is finite, the newest pose no farther from its prediction than a sensor can
+/// have moved, and none farther from its neighbours.
+bool IsBelievable(const WindowStatistics& statistics, const Window& window,
+                  const LostOptions& options);
+
+/// Whether a body can get from one pose to another in `duration_s`.
+bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s,
+                   const LostOptions& options);
 
 /// Puts the poses back to `poses`. The planes belong to poses that are not believed: the
 /// registration is forgotten.

@@ -15,6 +15,9 @@ struct LostOptions {
   double max_duration_s = 1.0;
   double max_correction_m = 3.0;
   double max_correction_rad = 1.0;
+  double max_speed_m_s = 100.0;
+  double max_turn_rate_rad_s = 60.0;
+  double max_search_s = 5.0;
   double degenerate_eigenvalue = 0.002;
 
   template <typename Describer>
@@ -28,6 +31,13 @@ struct LostOptions {
       "A solve that moves the newest pose farther than this from its prediction is not believed.");
     d(OptionFor::kExperts, "max_correction_rad", max_correction_rad, Range<double>{1e-3, 10.0},
       "The same for its rotation.");
+    d(OptionFor::kExperts, "max_speed_m_s", max_speed_m_s, Range<double>{0.1, 1e4},
+      "No pose is farther from its neighbours than a body of this speed gets.");
+    d(OptionFor::kExperts, "max_turn_rate_rad_s", max_turn_rate_rad_s, Range<double>{0.1, 1e4},
+      "The same for its rotation.");
+    d(OptionFor::kExperts, "max_search_s", max_search_s, Range<double>{0.0, 1e6},
+      "After a pause, or when a covered LiDAR sees again, the place is sought in the map. When so "
+      "much data has come and it is not found, the estimator is lost.");
     d(OptionFor::kExperts, "degenerate_eigenvalue", degenerate_eigenvalue, Range<double>{0.0, 1.0},
       "Below this information per point a direction counts as degenerate (a well-spread scene "
       "has 0.05 to 0.2).");

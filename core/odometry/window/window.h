@@ -69,6 +69,7 @@ struct Window {
     for (const Segment& segment : segments) poses.push_back(segment.T_world_end);
     return poses;
   }
+  std::int64_t EndNs() const { return segments.empty() ? begin_ns : segments.back().cloud.end_ns; }
   void SetPoses(const std::vector<SE3>& poses) {
     T_world_begin = poses.front();
     for (std::size_t k = 0; k < segments.size(); ++k) segments[k].T_world_end = poses[k + 1];

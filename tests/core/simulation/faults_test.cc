@@ -123,6 +123,33 @@ TEST(Faults, OneLidarFallsSilentForAWhile) {
   EXPECT_EQ(kept[10].index, 20);
 }
 
+TEST(Faults, APauseTakesTheScansOfAllLidars) {
+  FaultConfig config;
+  config.pause_from_s = 1.0;
+  config.pause_s = 2.0;
+  for (const int lidar : {0, 1}) {
+    const std::vector<SimulatedScan> kept = Through(config, 50, lidar);
+    ASSERT_EQ(kept.size(), 30U);
+    EXPECT_EQ(kept[9].index, 9);
+    EXPECT_EQ(kept[10].index, 30);
+  }
+}
+
+TEST(Faults, ACoveredLidarSeesTheCover) {
+  FaultConfig config;
+  config.cover_from_s = 0.1;
+  config.cover_s = 0.1;
+  FaultInjector faults(config, 5, kStart);
+  for (int i = 0; i < 3; ++i) {
+    SimulatedScan scan = MakeScan(0, i);
+    for (LidarPoint& point : scan.scan.points) point.xyz_m = {3.0F, 4.0F, 0.0F};
+    ASSERT_TRUE(faults.Apply(&scan));
+    for (const LidarPoint& point : scan.scan.points) {
+      EXPECT_FLOAT_EQ(point.xyz_m.norm(), i == 1 ? 0.6F : 5.0F);
+    }
+  }
+}
+
 TEST(Faults, EndOfSweepStampsLeaveThePointTimesRight) {
   FaultConfig config;
   config.end_of_sweep_stamps = true;

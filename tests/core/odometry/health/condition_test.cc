@@ -36,7 +36,7 @@ TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
     tau[5] = yaw_rad;
     WindowStatistics statistics;
     statistics.SetCorrection(predicted, predicted * se3::Exp(tau));
-    return IsBelievable(statistics, options);
+    return IsBelievable(statistics, Window(), options);
   };
   EXPECT_TRUE(at(0.4, 0.0));
   EXPECT_FALSE(at(0.6, 0.0));

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/starvation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "manifolds/se3_interpolation.h"
+
+namespace trajlo {
+namespace {
+
+/// A point within this distance is on its plane: the error of a prediction after a short pause.
+constexpr double kOnPlane_m = 0.2;
+/// Fewer points than this hold no pose.
+constexpr int kHandful = 6;
+/// What a registration from the prediction bridges, for three standard deviations of it.
+constexpr double kBridged_m = 1.0;
+constexpr double kBridged_rad = 0.45;
+
+}  // namespace
+
+bool IsStarved(const Window& window, const Segment& segment, double min_share) {
+  const auto k = static_cast<int>(&segment - window.segments.data());
+  const SegmentMotion motion(window.Pose(k), segment.T_world_end);
+  const double all = static_cast<double>(segment.cloud.registration_points.size());
+  const double needed = std::max<double>(kHandful, min_share * all);
+  int on_plane = 0;
+  for (const RegistrationPoint& point : segment.points) {
+    const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
+    on_plane += std::abs(point.normal_world.dot(p_world) - point.offset_m) < kOnPlane_m ? 1 : 0;
+    if (on_plane >= needed) return false;
+  }
+  return true;
+}
+
+bool StarvationWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {
+  const double unseen_s = 1e-9 * static_cast<double>(t_ns - fed_until_ns_);
+  return 3.0 * UnseenSigma(density[0], unseen_s) > kBridged_m ||
+         3.0 * UnseenSigma(density[3], unseen_s) > kBridged_rad;
+}
+
+double UnseenSigma(double density, double duration_s) {
+  return std::sqrt(density * duration_s * duration_s * duration_s / 3.0);
+}
+
+}  // namespace trajlo

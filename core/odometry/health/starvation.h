@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "core/odometry/window/window.h"
+
+namespace trajlo {
+
+/// Whether the points of a segment do not hold it at its present poses: fewer than `min_share` of
+/// them lie on planes of the map, or a handful. So it is while a LiDAR is covered or silent.
+bool IsStarved(const Window& window, const Segment& segment, double min_share);
+
+/// Notices when the motion prior has carried the window for too long. Its uncertainty grows with
+/// sqrt(q t³ / 3); once it is more than a registration from the prediction bridges, the place must
+/// be looked for. See ReturnSearch.
+class StarvationWatch {
+ public:
+  /// A segment that ends at `end_ns` was held by its points.
+  void Fed(std::int64_t end_ns) { fed_until_ns_ = end_ns; }
+
+  std::int64_t fed_until_ns() const { return fed_until_ns_; }
+  /// Whether the prediction for `t_ns` is too uncertain to start from; `density` is that of the
+  /// acceleration, see MotionPrior.
+  bool IsBlind(std::int64_t t_ns, const Vector6d& density) const;
+
+ private:
+  std::int64_t fed_until_ns_ = 0;
+};
+
+/// Standard deviation of a body's position (m) or attitude (rad) that moved unseen for `duration_s`
+/// by white noise on acceleration of spectral density `density` (m²/s³ or rad²/s³).
+double UnseenSigma(double density, double duration_s);
+
+}  // namespace trajlo

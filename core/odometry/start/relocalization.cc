@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/start/relocalization.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "core/odometry/window/association.h"
+#include "factors/segment_registration.h"
+#include "manifolds/se3_interpolation.h"
+
+namespace trajlo {
+namespace {
+
+/// So many places are refined.
+constexpr std::size_t kPlaces = 24;
+constexpr std::size_t kMaxPoints = 800;
+constexpr int kRigidRounds = 9;
+constexpr int kMovingRounds = 9;
+/// Holds what the points do not, as a share of their information.
+constexpr double kDamping = 1e-4;
+/// Places that the refinement brings nearer to each other than this are one.
+constexpr double kSame_m = 0.5;
+constexpr double kSame_rad = 0.12;
+/// A point this near to its plane speaks for a place.
+constexpr double kAgreement_m = 0.12;
+/// A ray goes through a surface if it passes a point of the map this closely, not near its ends.
+constexpr double kPassed_m = 0.1;
+constexpr double kRayStep_m = 0.2;
+constexpr double kRayBegin_m = 0.6;
+constexpr double kRayEnd_m = 0.8;
+constexpr double kLongestRay_m = 20.0;
+/// Two places disagree on a point if the one's plane is as far as this from it under the other.
+constexpr double kDisagreement_m = 0.3;
+/// What makes a place clear: this share of all points, ...
+constexpr double kMinAgreement = 0.3;
+/// ... and of those that have a plane, near or far, ...
+constexpr double kMinPrecision = 0.6;
+/// ... so many times the points that a rival has, of those that only one of them has, which must be
+/// more than a few, ...
+constexpr double kMinRatio = 2.0;
+constexpr double kMinDisputed = 0.03;
+/// ... and in every direction this share of the information about translation.
+constexpr double kWeakShare = 0.01;
+
+/// A place, and which planes of the map the points of the sweep find there.
+class Hypothesis {
+ public:
+  Hypothesis(const SegmentCloud& sweep, const Vector6d& tau, const MapPyramid& map,
+             ThreadPool* threads)
+      : sweep_(sweep), T_begin_end_(se3::Exp(tau)), map_(map), threads_(threads) {}
+
+  /// Brings the sweep as a rigid cloud onto the map.
+  void Place(const SE3& start, const RegistrationOptions& registration) {
+    T_begin_ = start;
+    Associate();
+    for (int round = 0; round < kRigidRounds; ++round) {
+      // 8, 8, 8, 4, 4, 4, 2, ... times the kernel.
+      const int coarse = std::max(1, 8 >> (round / 3));
+      if (!Step(coarse * registration.kernel_m, true, registration)) return;
+    }
+  }
+
+  /// Refines the motion during the sweep, too: it was only found roughly.
+  void Move(const RegistrationOptions& registration) {
+    for (int round = 0; round < kMovingRounds; ++round) {
+      const int coarse = std::max(1, 4 >> (round / 3));
+      if (!Step(coarse * registration.kernel_m, false, registration)) return;
+    }
+  }
+
+  /// Finds the points that speak for this place.
+  void Judge() {
+    const SegmentMotion motion(T_begin_, T_begin_ * T_begin_end_);
+    found_.assign(sweep_.registration_points.size(), {});
+    // Those with a plane, in the order of all.
+    std::size_t i = 0;
+    for (const RegistrationPoint& point : points_) {
+      while (!IsSame(point, sweep_.registration_points[i])) ++i;
+      const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
+      const Eigen::Vector3d origin_world = motion.ToWorld(
+          point.alpha, sweep_.lidar_origins_body_m[sweep_.registration_points[i].lidar]);
+      const double distance_m = point.normal_world.dot(p_world) - point.offset_m;
+      found_[i].normal = point.normal_world;
+      found_[i].agrees =
+          std::abs(distance_m) < kAgreement_m && !GoesThroughSurface(origin_world, p_world);
+      agreeing_ += found_[i++].agrees ? 1 : 0;
+    }
+  }
+
+  const SE3& T_begin() const { return T_begin_; }
+  Vector6d tau() const { return se3::Log(T_begin_end_); }
+  /// Points that lie on planes, with nothing of the map in their way.
+  int agreeing() const { return agreeing_; }
+  /// Those that have one, near or far.
+  int with_plane() const { return static_cast<int>(points_.size()); }
+
+  bool IsAt(const Hypothesis& other) const {
+    const SE3 between = T_begin_.Inverse() * other.T_begin_;
+    return between.t.norm() < kSame_m && so3::Log(between.q).norm() < kSame_rad;
+  }
+
+  bool HoldsAllDirections() const {
+    const Eigen::Matrix3d translation = information_.topLeftCorner<3, 3>();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(translation);
+    return eigen.eigenvalues()[0] > kWeakShare * translation.trace();
+  }
+
+  /// How many points speak for this place alone, and for `other` alone, of those that a plane of
+  /// either says cannot lie where the other has them.
+  void CountDisputed(const Hypothesis& other, int* mine, int* others) const {
+    *mine = *others = 0;
+    const SegmentMotion here(T_begin_, T_begin_ * T_begin_end_);
+    const SegmentMotion there(other.T_begin_, other.T_begin_ * other.T_begin_end_);
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const SegmentPoint& point = sweep_.registration_points[i];
+      const Eigen::Vector3d p = point.p_body_m.cast<double>();
+      const Eigen::Vector3d way = there.ToWorld(point.alpha, p) - here.ToWorld(point.alpha, p);
+      const bool is_disputed =
+          (found_[i].agrees && std::abs(found_[i].normal.dot(way)) > kDisagreement_m) ||
+          (other.found_[i].agrees && std::abs(other.found_[i].normal.dot(way)) > kDisagreement_m);
+      if (!is_disputed) continue;
+      *mine += found_[i].agrees && !other.found_[i].agrees ? 1 : 0;
+      *others += other.found_[i].agrees && !found_[i].agrees ? 1 : 0;
+    }
+  }
+
+ private:
+  bool GoesThroughSurface(const Eigen::Vector3d& origin, const Eigen::Vector3d& end) const {
+    const double range_m = (end - origin).norm();
+    const Eigen::Vector3d direction = (end - origin) / range_m;
+    const double last_m = std::min(range_m - kRayEnd_m, kLongestRay_m);
+    Neighbors nearest;
+    for (double way_m = kRayBegin_m; way_m < last_m; way_m += kRayStep_m) {
+      map_.finest().Nearest(origin + way_m * direction, 1, &nearest);
+      if (nearest.count > 0 && nearest.squared_distance[0] < kPassed_m * kPassed_m) return true;
+    }
+    return false;
+  }
+
+  struct Found {
+    bool agrees = false;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  };
+
+  /// One step of Gauss-Newton, of the sweep as a whole or of its begin and its end.
+  bool Step(double kernel_m, bool is_rigid, RegistrationOptions registration) {
+    registration.kernel_m = kernel_m;
+    const RegistrationNormalEquations equations = LinearizeSegment(
+        points_, T_begin_, T_begin_ * T_begin_end_, MakeRegistrationNoise(registration));
+    Eigen::Matrix<double, 12, 6> A;
+    A << Matrix6d::Identity(), se3::Adjoint(T_begin_end_.Inverse());
+    information_ = A.transpose() * equations.H * A;
+    Vector12d xi;
+    if (is_rigid) {
+      const Matrix6d damping = kDamping * information_.trace() * Matrix6d::Identity();
+      xi = -A * (information_ + damping).ldlt().solve(A.transpose() * equations.g);
+    } else {
+      const Matrix12d damping = kDamping * equations.H.trace() * Matrix12d::Identity();
+      xi = -(equations.H + damping).ldlt().solve(equations.g);
+    }
+    if (!xi.allFinite()) return false;
+    const SE3 T_end = Plus(T_begin_ * T_begin_end_, xi.tail<6>());
+    T_begin_ = Plus(T_begin_, xi.head<6>());
+    T_begin_end_ = T_begin_.Inverse() * T_end;
+    Associate();
+    return true;
+  }
+
+  void Associate() {
+    association_.Associate(sweep_.registration_points, sweep_.lidar_origins_body_m, T_begin_,
+                           T_begin_ * T_begin_end_, map_, {}, threads_, &points_);
+  }
+
+  static bool IsSame(const RegistrationPoint& a, const SegmentPoint& b) {
+    return a.p_body_m == b.p_body_m.cast<double>() && a.alpha == static_cast<double>(b.alpha);
+  }
+
+  const SegmentCloud& sweep_;
+  SE3 T_begin_end_;
+  const MapPyramid& map_;
+  ThreadPool* threads_;
+  SE3 T_begin_;
+  SegmentAssociation association_;
+  std::vector<RegistrationPoint> points_;
+  Matrix6d information_ = Matrix6d::Zero();
+  std::vector<Found> found_;  ///< One for each point of the sweep.
+  int agreeing_ = 0;
+};
+
+/// Fewer points, and those of the sweep as a rigid cloud in the body frame at its begin.
+SegmentCloud Thin(const SegmentCloud& sweep) {
+  SegmentCloud thin;
+  thin.lidar_origins_body_m = sweep.lidar_origins_body_m;
+  const std::vector<SegmentPoint>& points = sweep.registration_points;
+  const std::size_t count = std::min(points.size(), kMaxPoints);
+  for (std::size_t i = 0; i < count; ++i) {
+    thin.registration_points.push_back(points[i * points.size() / count]);
+  }
+  return thin;
+}
+
+std::vector<Eigen::Vector3d> Rigid(const SegmentCloud& sweep, const Vector6d& tau) {
+  const SegmentMotion motion(SE3(), se3::Exp(tau));
+  std::vector<Eigen::Vector3d> points;
+  for (const SegmentPoint& point : sweep.registration_points) {
+    points.push_back(motion.ToWorld(point.alpha, point.p_body_m.cast<double>()));
+  }
+  return points;
+}
+
+bool IsClear(const Hypothesis& best, const std::vector<Hypothesis>& all, std::size_t points) {
+  if (best.agreeing() < kMinAgreement * static_cast<double>(points)) return false;
+  if (best.agreeing() < kMinPrecision * best.with_plane()) return false;
+  if (!best.HoldsAllDirections()) return false;
+  return std::all_of(all.begin(), all.end(), [&](const Hypothesis& rival) {
+    if (&rival == &best || rival.IsAt(best)) return true;
+    int mine = 0, others = 0;
+    best.CountDisputed(rival, &mine, &others);
+    return mine > kMinRatio * others && mine > kMinDisputed * static_cast<double>(points);
+  });
+}
+
+}  // namespace
+
+std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d& tau,
+                                      const MapPyramid& map, const SearchRegion& region,
+                                      const RegistrationOptions& registration,
+                                      ThreadPool* threads) {
+  const bool has_motion = sweep.end_ns > sweep.begin_ns;
+  const SegmentCloud thin = Thin(sweep);
+  std::vector<Hypothesis> all;
+  for (const SE3& place : FindPlaces(Rigid(thin, tau), map.finest(), region, kPlaces, threads)) {
+    Hypothesis hypothesis(thin, tau, map, threads);
+    hypothesis.Place(place, registration);
+    const bool is_new = std::none_of(
+        all.begin(), all.end(), [&](const Hypothesis& other) { return other.IsAt(hypothesis); });
+    if (is_new) all.push_back(std::move(hypothesis));
+  }
+  for (Hypothesis& hypothesis : all) {
+    if (has_motion) hypothesis.Move(registration);
+    hypothesis.Judge();
+  }
+  const auto best = std::max_element(
+      all.begin(), all.end(),
+      [](const Hypothesis& a, const Hypothesis& b) { return a.agreeing() < b.agreeing(); });
+  if (best == all.end() || !IsClear(*best, all, thin.registration_points.size())) {
+    return std::nullopt;
+  }
+  return SweepMotion{best->T_begin(), best->tau()};
+}
+
+}  // namespace trajlo

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "core/odometry/map/map_pyramid.h"
+#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/start/place_search.h"
+#include "core/odometry/weights/registration_options.h"
+
+namespace trajlo {
+
+/// Where a sweep was measured, and how the body moved during it.
+struct SweepMotion {
+  SE3 T_world_begin;
+  Vector6d tau = Vector6d::Zero();  ///< The body's twist over the sweep.
+};
+
+/// Finds where in the map a short sweep was measured, within `region`. `tau` is about the body's
+/// twist over the sweep; that of a sweep without duration is taken as it is.
+///
+/// Places are looked for in cells of the map (FindPlaces), refined by registration to its planes,
+/// and judged against each other. A point speaks for a place if it lies on a plane there, and its
+/// ray goes through nothing that the map has. The place with the most such points is returned only
+/// if it is clear: most points that have a plane must be on it; the points must hold all
+/// directions; and of those that speak for it or a rival alone, nearly all must speak for it. So a
+/// hall with two equal ends, a corridor and a scene that the map does not have give nothing.
+std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d& tau,
+                                      const MapPyramid& map, const SearchRegion& region,
+                                      const RegistrationOptions& registration, ThreadPool* threads);
+
+}  // namespace trajlo

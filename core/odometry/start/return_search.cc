@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/start/return_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/odometry/health/starvation.h"
+
+namespace trajlo {
+namespace {
+
+/// Looks are farther apart the longer the search lasts: by this share of its time.
+constexpr double kPatience = 0.25;
+/// The region holds rest and 1.5 times the way of the last velocity: a middle and a half of 0.75.
+constexpr double kMiddle = 0.75;
+/// The scene's uncertainty at three standard deviations, and what a look may cost.
+constexpr double kMinRadius_m = 0.5;
+/// Nor is the body taken to accelerate less than this, however quiet it was before.
+constexpr double kAcceleration_m_s2 = 2.0;
+constexpr double kTurnAcceleration_rad_s2 = 2.0;
+constexpr double kMaxRadius_m = 40.0;
+constexpr double kMinTurn_rad = 0.1;
+/// A velocity says nothing after so long.
+constexpr double kLongestPrediction_s = 5.0;
+/// Attitudes nearer than this are one.
+constexpr double kSameTilt_rad = 0.05;
+
+double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+double Seconds(const SegmentCloud& segment) { return Seconds(segment.end_ns - segment.begin_ns); }
+
+/// Motion-corrected: every point belongs to the end.
+bool IsInstant(const SegmentCloud& segment) {
+  return !segment.map_points.empty() &&
+         std::all_of(segment.map_points.begin(), segment.map_points.end(),
+                     [](const SegmentPoint& point) { return point.alpha == 1.0F; });
+}
+
+}  // namespace
+
+void ReturnSearch::Add(SegmentCloud segment) {
+  if (segment.is_gap) segments_.clear();
+  if (segment.is_gap || (segments_.empty() && segment.map_points.empty())) return;
+  searched_s_ += Seconds(segment);
+  since_look_s_ += Seconds(segment);
+  if (IsInstant(segment)) segments_.clear();
+  segments_.push_back(std::move(segment));
+  // Only the newest first_interval_s: over longer the motion is no constant twist.
+  const auto longest_ns = std::llround(1e9 * options_.segmenter.first_interval_s);
+  while (segments_.size() > 1 &&
+         segments_.back().end_ns - segments_.front().begin_ns > longest_ns) {
+    segments_.erase(segments_.begin());
+  }
+}
+
+bool ReturnSearch::IsDue() const {
+  if (segments_.empty()) return false;
+  if (IsInstant(segments_.back())) return since_look_s_ >= kPatience * searched_s_;
+  const double sweep_s = Seconds(segments_.back().end_ns - segments_.front().begin_ns);
+  const double enough_s = options_.segmenter.first_interval_s - options_.segmenter.interval_s;
+  return sweep_s >= enough_s && since_look_s_ >= std::max(enough_s, kPatience * searched_s_);
+}
+
+ReturnSweep ReturnSearch::Merge() const {
+  ReturnSweep sweep;
+  SegmentCloud& cloud = sweep.cloud;
+  cloud.begin_ns = segments_.front().begin_ns;
+  cloud.end_ns = segments_.back().end_ns;
+  cloud.lidar_origins_body_m = segments_.back().lidar_origins_body_m;
+  const double inverse = 1.0 / static_cast<double>(cloud.end_ns - cloud.begin_ns);
+  for (const SegmentCloud& segment : segments_) {
+    const double first = static_cast<double>(segment.begin_ns - cloud.begin_ns) * inverse;
+    const double share = static_cast<double>(segment.end_ns - segment.begin_ns) * inverse;
+    const auto append = [&](const std::vector<SegmentPoint>& from, std::vector<SegmentPoint>* to) {
+      for (SegmentPoint point : from) {
+        point.alpha = static_cast<float>(first + share * static_cast<double>(point.alpha));
+        to->push_back(point);
+      }
+    };
+    append(segment.map_points, &cloud.map_points);
+    append(segment.registration_points, &cloud.registration_points);
+  }
+  return sweep;
+}
+
+SE3 ReturnSearch::Predict(std::int64_t t_ns) const {
+  const double unseen_s = std::min(Seconds(t_ns - last_.t_ns), kLongestPrediction_s);
+  return last_.T_world_body * se3::Exp(unseen_s * last_.velocity);
+}
+
+SearchRegion ReturnSearch::Region(std::int64_t t_ns) const {
+  const double unseen_s = Seconds(t_ns - last_.fed_ns);
+  const double moving_s = std::min(Seconds(t_ns - last_.t_ns), kLongestPrediction_s);
+  const double moved_s = std::min(unseen_s, kLongestPrediction_s);
+  SearchRegion region;
+  region.vertical_world = attitude_.VerticalInWorld();
+  region.center_world = (last_.T_world_body * se3::Exp(kMiddle * moving_s * last_.velocity)).t;
+  const double way_m = moved_s * last_.velocity.head<3>().norm();
+  const double reach_m = std::max(3.0 * UnseenSigma(last_.density[0], unseen_s),
+                                  0.5 * kAcceleration_m_s2 * unseen_s * unseen_s) +
+                         kMinRadius_m;
+  region.radius_m = std::min(kMiddle * way_m + reach_m, kMaxRadius_m);
+
+  const Eigen::Vector3d turn_rate_world = last_.T_world_body.q * last_.velocity.tail<3>();
+  region.mean_turn_rad = kMiddle * moving_s * turn_rate_world.dot(region.vertical_world);
+  const double turn_rad = kMiddle * moved_s * last_.velocity.tail<3>().norm();
+  const double turn_reach_rad = std::max(3.0 * UnseenSigma(last_.density[3], unseen_s),
+                                         0.5 * kTurnAcceleration_rad_s2 * unseen_s * unseen_s) +
+                                kMinTurn_rad;
+  region.max_turn_rad = std::min(turn_rad + turn_reach_rad, M_PI);
+  region.q_world_body = {last_.T_world_body.q};
+  const Eigen::Quaterniond level = attitude_.Levelled(last_.T_world_body.q);
+  if (level.angularDistance(last_.T_world_body.q) > kSameTilt_rad) {
+    region.q_world_body.push_back(level);
+  }
+  return region;
+}
+
+ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
+  looked_ = true;
+  since_look_s_ = 0.0;
+  ReturnSweep sweep = Merge();
+  if (IsInstant(sweep.cloud)) {
+    sweep.cloud.begin_ns = sweep.cloud.end_ns;
+  } else {
+    sweep.tau = MotionOfFirstInterval(sweep.cloud, options_.initialization, options_.map,
+                                      options_.registration, threads);
+  }
+  const auto found = Relocalize(sweep.cloud, sweep.tau, map, Region(sweep.cloud.begin_ns),
+                                options_.registration, threads);
+  if (found) {
+    sweep.T_world_begin = found->T_world_begin;
+    sweep.tau = found->tau;
+  }
+  return sweep;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "core/report/flag_warnings.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace trajlo {
+namespace {
+
+/// Less than this share of the time is not worth a warning.
+constexpr double kWorthSaying = 0.02;
+
+std::string SecondsText(double seconds, double all_s) {
+  char text[80];
+  std::snprintf(text, sizeof(text), "%.2f s (%.1f %%)", seconds, 100.0 * seconds / all_s);
+  return text;
+}
+
+/// "about_z" as "about z of the body".
+std::string Words(const std::string& axis) {
+  if (axis.rfind("about_", 0) == 0) return "rotation about " + axis.substr(6) + " of the body";
+  return "motion along " + axis + " of the body";
+}
+
+}  // namespace
+
+std::vector<std::string> FlagWarnings(const RunSummary& summary) {
+  std::vector<std::string> warnings;
+  const double all_s = summary.flags.seconds();
+  if (!(all_s > 0.0)) return warnings;
+  const auto total = [&](const char* name) { return summary.flags.totals().at(name); };
+
+  const FlaggedPoses gap = total("gap");
+  if (gap.poses > 0) {
+    warnings.push_back("nothing was measured for " + SecondsText(gap.seconds, all_s) + " in " +
+                       std::to_string(gap.poses) + (gap.poses == 1 ? " stretch" : " stretches") +
+                       ": the motion there is not known, only where it ends (flag gap in "
+                       "flags.csv)");
+  }
+  const FlaggedPoses starved = total("no_points");
+  if (starved.seconds > kWorthSaying * all_s) {
+    warnings.push_back("for " + SecondsText(starved.seconds, all_s) +
+                       " hardly any point was on the map: there the motion is carried on (flag "
+                       "no_points)");
+  }
+  const FlaggedPoses degenerate = total("degenerate");
+  const auto& axes = summary.windows.weak_axes;
+  if (degenerate.seconds > kWorthSaying * all_s && !axes.empty()) {
+    const auto weakest = std::max_element(
+        axes.begin(), axes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    warnings.push_back("for " + SecondsText(degenerate.seconds, all_s) +
+                       " the points do not hold every direction, mostly not the " +
+                       Words(weakest->first) + ": the poses may be wrong by more than it seems " +
+                       "(flag degenerate)");
+  }
+  return warnings;
+}
+
+}  // namespace trajlo
