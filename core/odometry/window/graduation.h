@@ -27,8 +27,8 @@ class Graduation {
   /// Before the newest segment of `window` is associated for the first time.
   explicit Graduation(const Window& window);
 
-  /// Widens the kernels of the newest segment's points for one round; false if none needs it any
-  /// more.
+  /// Widens the kernels of the newest segment's points for one round; false if most need it
+  /// no more.
   bool Widen(Segment* newest);
   /// Takes it back.
   void Restore(Segment* newest) const;
