@@ -34,7 +34,7 @@ void AddConfigs(const fs::path& folder, std::vector<NamedConfig>* configs) {
   std::vector<NamedConfig> found;
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (!IsYaml(it->path())) continue;
+    if (!IsYaml(it->path()) || !it->is_regular_file(error)) continue;
     found.push_back({it->path().stem().string(), it->path(), FirstSentence(it->path())});
   }
   std::sort(found.begin(), found.end(),

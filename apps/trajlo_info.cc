@@ -54,6 +54,7 @@ ExitCode Info(const trajlo::CommandLine& line) {
     trajlo::RequireNoArguments(line);
     request.recordings = trajlo::InputPaths(FLAGS_input);
   }
+  request.program_folder = line.words.front().substr(0, line.words.front().rfind('/') + 1);
   request.json = FLAGS_json;
   request.quick = FLAGS_quick;
   request.quiet = FLAGS_quiet;

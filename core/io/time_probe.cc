@@ -75,15 +75,20 @@ bool TimeProbe::HasStamps() const {
 }
 
 TimeConvention TimeProbe::DecideWithoutTimes() const {
+  constexpr char kBlur[] =
+      "points have no times of their own: right for motion-corrected scans only, others blur with "
+      "every turn (input.point_time=none says that they are corrected)";
   const std::string scans = std::to_string(readable_);
   TimeConvention convention;
   if (!options_.use_point_times) {
     convention.evidence = "no point times: switched off by point_time none";
   } else if (with_points_ > 0 && evidence_.field.empty()) {
     convention.evidence = "no point times: none of the fields (" + fields_ + ") has a known name";
+    convention.doubt = kBlur;
   } else if (constant_ > 0) {
     convention.evidence = "no point times: field '" + evidence_.field +
                           "' is the same for all points of each of the first " + scans + " scans";
+    convention.doubt = kBlur;
   } else {
     convention.evidence = "no point times: none of the first " + scans + " scans has enough points";
   }

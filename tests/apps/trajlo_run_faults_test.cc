@@ -254,6 +254,7 @@ TEST_F(InterruptedRunTest, AKilledRunLeavesAReadablePrefixThatSaysSo) {
   const std::string text = ReadFile(Result("trajectory.tum"));
   EXPECT_EQ(text.back(), '\n');
   EXPECT_EQ(RunJson()["exit"]["reason"], "running");
+  EXPECT_TRUE(RunJson()["exit"]["code"].is_null());
   EXPECT_EQ(Run().exit_code, 5);  // Nor is it replaced without being told so.
 }
 
