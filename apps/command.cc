@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <exception>
 #include <initializer_list>
-#include <new>
 #include <optional>
 
 #include "apps/completion.h"
+#include "apps/failure_text.h"
 #include "apps/interrupt.h"
 #include "apps/read_flags.h"
 #include "apps/usage_error.h"
@@ -55,7 +55,7 @@ bool Answer(const Command& command, const std::vector<std::string>& words) {
   } else if (const auto shell = CompletionShell(words)) {
     std::fputs(CompletionScript(*shell).c_str(), stdout);
   } else if (Has(words, {"--help", "-help", "-h"})) {
-    std::fputs(command.help.c_str(), stdout);
+    std::fputs(command.help, stdout);
   } else if (Has(words, {"--version", "-version"})) {
     PrintVersion(command.name);
   } else {
@@ -64,33 +64,36 @@ bool Answer(const Command& command, const std::vector<std::string>& words) {
   return true;
 }
 
-ExitCode Run(const Command& command, CommandLine* line) {
-  if (Answer(command, line->words)) return ExitCode::kOk;
+ExitCode Run(const Command& command, int argc, char** argv) {
+  CommandLine line;
+  line.command = command.name;
+  line.words.assign(argv, argv + argc);
+  if (Answer(command, line.words)) return ExitCode::kOk;
   QuietenCeres();
-  line->arguments = ReadFlags(command.name, line->words);
-  return command.run(*line);
+  line.arguments = ReadFlags(command.name, line.words);
+  return command.run(line);
 }
 
-ExitCode RunGuarded(const Command& command, CommandLine* line) {
-  const auto fail = [&](ExitCode code, const std::string& error, const std::string& hint) {
-    std::fprintf(stderr, "%s: %s\n%s", command.name.c_str(), error.c_str(), hint.c_str());
-    return code;
-  };
-  const std::string examples = "(" + command.name + " --help shows examples)\n";
+ExitCode Fail(const Command& command, ExitCode code, const char* what) {
+  std::fprintf(stderr, "%s: %s\n", command.name, what);
+  if (code == ExitCode::kUsage) std::fprintf(stderr, "(%s --help shows examples)\n", command.name);
+  return code;
+}
+
+/// No exception leaves it.
+ExitCode RunGuarded(const Command& command, int argc, char** argv) {
   try {
-    return Run(command, line);
+    return Run(command, argc, argv);
   } catch (const UsageError& error) {
-    return fail(ExitCode::kUsage, error.what(), examples);
+    return Fail(command, ExitCode::kUsage, error.what());
   } catch (const ConfigError& error) {
-    return fail(ExitCode::kUsage, error.what(), examples);
+    return Fail(command, ExitCode::kUsage, error.what());
   } catch (const InputError& error) {
-    return fail(ExitCode::kInputUnreadable, error.what(), "");
+    return Fail(command, ExitCode::kInputUnreadable, error.what());
   } catch (const OutputError& error) {
-    return fail(ExitCode::kOutputNotWritable, error.what(), "");
-  } catch (const std::bad_alloc&) {
-    return fail(ExitCode::kFailed, "there is not enough memory", "");
+    return Fail(command, ExitCode::kOutputNotWritable, error.what());
   } catch (const std::exception& error) {
-    return fail(ExitCode::kFailed, std::string("failed: ") + error.what(), "");
+    return Fail(command, ExitCode::kFailed, FailureText(error).c_str());
   }
 }
 
@@ -101,10 +104,7 @@ int RunCommand(const Command& command, int argc, char** argv) {
   // A closed pipe and a limit on file sizes are then errors of the write, like a full disk.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  CommandLine line;
-  line.command = command.name;
-  line.words.assign(argv, argv + argc);
-  return static_cast<int>(RunGuarded(command, &line));
+  return static_cast<int>(RunGuarded(command, argc, argv));
 }
 
 void RequireNoArguments(const CommandLine& line) {

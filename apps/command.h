@@ -18,8 +18,8 @@ struct CommandLine {
 
 /// What all commands of trajlo have in common lies in RunCommand(); this is what differs.
 struct Command {
-  std::string name;  ///< "trajlo_run"
-  std::string help;  ///< Examples, flags and exit codes.
+  const char* name = "";  ///< "trajlo_run"
+  const char* help = "";  ///< Examples, flags and exit codes.
   std::function<ExitCode(const CommandLine&)> run;
   /// For completion: what a flag may be; for "" what an argument may be. Empty where any text may
   /// stand, or a file.

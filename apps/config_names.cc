@@ -70,7 +70,7 @@ std::vector<NamedConfig> NamedConfigs() {
 fs::path FindConfig(const std::string& word) {
   std::error_code error;
   const bool is_path = word.find('/') != std::string::npos || IsYaml(word);
-  if (is_path && fs::exists(word, error)) return word;
+  if (is_path && (fs::exists(word, error) || error)) return word;  // Reading says what is wrong.
   const std::string name = is_path ? fs::path(word).stem().string() : word;
   std::vector<std::string> names;
   for (const NamedConfig& config : NamedConfigs()) {

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "apps/command.h"
-#include "apps/read_flags.h"
 #include "apps/usage_error.h"
 #include "core/config/edit_distance.h"
 #include "core/io/conversion/pcd_folder_writer.h"
@@ -69,8 +68,21 @@ constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
   trajlo_simulate hall_os1_16 -o bagged --format=bag --bag_compression=lz4
       bagged/recording.bag in place of the scans, with the truth on /truth
 
-Exit codes: 0 done, 1 wrong usage, 5 the output cannot be written, 6 out of memory or a defect of
-the program.
+Flags:
+  -o, --output=FOLDER       where the recording goes: a folder that is new or empty
+  --overwrite               replace the recording that is in the folder
+  --scenario=NAME           the same as the argument
+  --set=KEY=VALUE           change parameters; may be repeated
+  --duration_s=S            the length of the recording; 0 keeps the scenario's own
+  --seed=N                  of noise, shaking and details of the scene; 0 keeps the scenario's own
+  --threads=N               0 for all processors; the recording does not depend on it
+  --format=pcd|bag          a folder of scans, or recording.bag for ROS 1
+  --bag_layout=ouster|velodyne|livox   of the points in the bag; each sensor's driver's by default
+  --bag_compression=none|lz4|bz2
+  --list, --list_parameters
+  -h, --help, --version
+
+Exit codes: 0 done, 1 wrong usage, 5 output not writable, 6 out of memory or a defect of the program.
 )";
 
 /// `key=value,key=value`. A piece without '=' belongs to the value before it, which lets a value
@@ -145,16 +157,6 @@ std::optional<trajlo::simulation::BagFormat> BagFormatFromFlags(const Scenario& 
   }
   format.compression = *compression;
   return format;
-}
-
-/// The examples, and the flags of this file.
-std::string Help() {
-  std::string text = std::string(kHelp) + "\nFlags:\n";
-  for (const gflags::CommandLineFlagInfo& flag : trajlo::FlagsOf("trajlo_simulate")) {
-    const std::string blanks(flag.name.size() < 16 ? 16 - flag.name.size() : 0, ' ');
-    text += "  --" + flag.name + blanks + " " + flag.description + "\n";
-  }
-  return text + "  -h, --help, --version\n";
 }
 
 void List() {
@@ -249,5 +251,5 @@ std::vector<std::string> Values(const std::string& flag) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return trajlo::RunCommand({"trajlo_simulate", Help(), Simulate, Values}, argc, argv);
+  return trajlo::RunCommand({"trajlo_simulate", kHelp, Simulate, Values}, argc, argv);
 }

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <sstream>
 
+#include "apps/failure_text.h"
 #include "apps/print_warnings.h"
 #include "core/comparison/forms/ceres_form_solver.h"
 #include "core/io/atomic_file.h"
@@ -227,13 +227,13 @@ void Execute(const RunRequest& request, const ResultFolder& folder, ScanSource* 
     run.Summarise();
     throw;
   } catch (const std::exception& error) {
-    failure = error.what();
+    failure = FailureText(error);
   }
   run.Write();
   run.Summarise();
   JudgeOutcome(stop, summary);
   if (!failure.empty()) {
-    End(ExitCode::kFailed, "failed", "the estimator failed: " + failure, summary);
+    End(ExitCode::kFailed, "failed", failure + " (while estimating)", summary);
   }
 }
 
@@ -289,10 +289,8 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
     End(ExitCode::kOutputNotWritable, "output_not_writable", error.what(), &summary);
   } catch (const InputError& error) {
     End(ExitCode::kInputUnreadable, "input_unreadable", error.what(), &summary);
-  } catch (const std::bad_alloc&) {
-    End(ExitCode::kFailed, "failed", "there is not enough memory", &summary);
   } catch (const std::exception& error) {
-    End(ExitCode::kFailed, "failed", std::string("failed: ") + error.what(), &summary);
+    End(ExitCode::kFailed, "failed", FailureText(error), &summary);
   }
   summary.wall_s = SecondsSince(begin);
   summary.cpu_s = ProcessCpuSeconds();

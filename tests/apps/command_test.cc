@@ -4,9 +4,11 @@
 #include <gflags/gflags.h>
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <new>
 #include <stdexcept>
 
+#include "apps/interrupt.h"
 #include "apps/usage_error.h"
 #include "core/config/config_error.h"
 #include "core/io/errors.h"
@@ -82,6 +84,19 @@ TEST(RunCommand, SaysWhatWasThrownAndReturnsItsCode) {
   const Result defect = thrown(std::out_of_range("vector::at"));
   EXPECT_EQ(defect.exit_code, 6);
   EXPECT_EQ(defect.err, "command_test: failed: vector::at\n");
+}
+
+TEST(RunCommand, AGracefulCommandHandlesSignalsBeforeItReadsItsWords) {
+  Command command{"command_test", "examples\n", [](const CommandLine&) { return ExitCode::kOk; }};
+  command.ends_gracefully = true;
+  std::string words[] = {"command_test", "--nonsense"};
+  char* argv[] = {words[0].data(), words[1].data(), nullptr};
+  ASSERT_EQ(std::signal(SIGTERM, SIG_DFL), SIG_DFL);
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(RunCommand(command, 2, argv), 1);
+  ::testing::internal::GetCapturedStderr();
+  std::raise(SIGTERM);  // Would end the test.
+  EXPECT_TRUE(HandleInterrupts());
 }
 
 TEST(RunCommand, WordsBehindTwoDashesAreNoFlags) {

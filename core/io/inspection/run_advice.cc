@@ -38,8 +38,9 @@ bool Contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
-/// KITTI keeps its scans in velodyne/ or velodyne_points/data/, and the rays of its HDL-64E go from
-/// -24 to 3 degrees. No other LiDAR in wide use has both ends there.
+/// KITTI keeps its scans in velodyne/ or velodyne_points/data/. By its calibration the rays of its
+/// HDL-64E end at -23.7 degrees, others of that model at -24.8: the wrong angles that the
+/// correction in the config is for.
 bool IsLikeKitti(const CloudInspection& cloud) {
   if (cloud.type != ".bin files") return false;
   const std::filesystem::path folder(cloud.topic);
@@ -47,8 +48,8 @@ bool IsLikeKitti(const CloudInspection& cloud) {
   const bool named = folder.filename() == "velodyne" ||
                      (folder.filename() == "data" && parent == "velodyne_points");
   const PointSummary& points = cloud.points;
-  return named && points.elevation_1_deg > -26.0 && points.elevation_1_deg < -20.0 &&
-         points.elevation_99_deg > 0.5 && points.elevation_99_deg < 4.5;
+  return named && points.elevation_1_deg > -24.2 && points.elevation_1_deg < -22.0 &&
+         points.elevation_99_deg > 0.0 && points.elevation_99_deg < 4.5;
 }
 
 /// The config of a LiDAR, by what writes such points; empty if nothing is typical.
@@ -150,13 +151,7 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
   }
   if (clouds.empty()) return advice;
   const KnownDataset* dataset = FindDataset(clouds);
-  // A recording with a rig file is simulated: what it was made with stands there.
-  const bool is_simulated_kitti = !recording.rig_config.empty() && IsLikeKitti(clouds.front());
-  if (dataset != nullptr) {
-    advice.config = dataset->config;
-  } else if (!is_simulated_kitti) {
-    advice.config = ConfigOf(clouds.front());
-  }
+  advice.config = dataset != nullptr ? dataset->config : ConfigOf(clouds.front());
   std::vector<std::string> topics;
   for (const CloudInspection& cloud : clouds) topics.push_back(cloud.topic);
   if (dataset != nullptr) topics = dataset->topics;
