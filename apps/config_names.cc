@@ -42,11 +42,20 @@ void AddConfigs(const fs::path& folder, std::vector<NamedConfig>* configs) {
   configs->insert(configs->end(), found.begin(), found.end());
 }
 
+/// For a suggestion only.
+std::vector<NamedConfig> NamedConfigsOrNone() {
+  try {
+    return NamedConfigs();
+  } catch (const ConfigError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 fs::path ConfigFolder() {
   constexpr char kMend[] =
-      "; set TRAJLO_CONFIG_DIR to the folder config of trajlo, or give --config a path";
+      "; set TRAJLO_CONFIG_DIR to trajlo's config folder, or give --config a path";
   std::error_code error;
   const char* set = std::getenv("TRAJLO_CONFIG_DIR");
   if (set != nullptr && *set != '\0') {
@@ -73,7 +82,7 @@ fs::path FindConfig(const std::string& word) {
   if (is_path && (fs::exists(word, error) || error)) return word;  // Reading says what is wrong.
   const std::string name = is_path ? fs::path(word).stem().string() : word;
   std::vector<std::string> names;
-  for (const NamedConfig& config : NamedConfigs()) {
+  for (const NamedConfig& config : is_path ? NamedConfigsOrNone() : NamedConfigs()) {
     if (config.name == name && !is_path) return config.file;
     names.push_back(config.name);
   }

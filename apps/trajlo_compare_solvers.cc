@@ -24,7 +24,7 @@ DEFINE_string(variants, "",
 DEFINE_string(only, "",
               "names of the variants to take, separated by commas; the first is the yardstick");
 DEFINE_string(mode, "both", "lockstep, free or both");
-DEFINE_int32(every, 5, "lockstep: compare every so many windows");
+DEFINE_int32(every, 5, "lockstep: compare every Nth window");
 DEFINE_string(truth, "", "ground truth of the trajectory, for errors of the free runs");
 DEFINE_int32(threads, 1, "for all variants; 1 makes their times comparable");
 DEFINE_bool(overwrite, false, "replace an earlier result in the output folder");

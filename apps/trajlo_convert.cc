@@ -17,7 +17,7 @@
 DEFINE_string(input, "", "the recording; in place of the first argument");
 DEFINE_string(output, "", "the bag, folder or file to write; in place of the last argument");
 DEFINE_string(topics, "", "of a bag, separated by commas; empty for all");
-DEFINE_double(start_s, 0.0, "skip so much of the recording");
+DEFINE_double(start_s, 0.0, "skip this much of the recording");
 DEFINE_double(duration_s, 0.0, "the length of the excerpt; 0 for all");
 DEFINE_string(layout, "", "of the points in a bag: ouster, velodyne or livox");
 DEFINE_string(compression, "none", "of a bag: none, lz4 or bz2");

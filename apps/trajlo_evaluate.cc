@@ -108,8 +108,8 @@ Relative errors
                               as evo, seconds as the TUM RGB-D benchmark
   --rpe_all_pairs             from every pose instead of pieces in a row
   --rpe_along_truth           metres and degrees along the truth instead of the aligned estimate
-  --rpe_tolerance=0.1         how far lengths in s, and in m from every pose, may be off, as a share
-                              (inf for seconds exactly as the TUM RGB-D benchmark)
+  --rpe_tolerance=0.1         how far lengths in s, and in m from every pose, may be off, relative to
+                              the length (inf for seconds exactly as the TUM RGB-D benchmark)
 
 An x marks runs that diverged. A run diverged if its absolute error is not finite, or is above both
 --diverged_percent=P (10) percent of the path and 0.5 m, or is above --diverged_m=D (0: no such

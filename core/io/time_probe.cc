@@ -39,10 +39,10 @@ bool TimeProbe::Note(const std::filesystem::path& where, const PointTable& table
   if (!options_.use_point_times) return true;
   const Column* column = FindTimeColumn(table, options_.field);
   if (column == nullptr && !options_.field.empty()) {
-    throw InputError(
-        where,
-        "time_field '" + options_.field + "' is sought, but the points have: " + table.FieldNames(),
-        "Set time_field to one of these, or leave it empty.");
+    throw InputError(where,
+                     "there is no field '" + options_.field +
+                         "' (input.time_field); the points have: " + table.FieldNames(),
+                     "Set input.time_field to one of these, or leave it empty.");
   }
   if (column == nullptr || (!evidence_.field.empty() && column->name != evidence_.field)) {
     return true;
@@ -96,9 +96,10 @@ TimeConvention TimeProbe::DecideWithoutTimes() const {
       options_.use_point_times && (!options_.field.empty() || options_.unit != TimeUnit::kAuto ||
                                    options_.origin != TimeOrigin::kAuto);
   if (is_asked_for) {
-    throw InputError(path_, "point times are asked for, but there are " + convention.evidence,
-                     "Leave time_field, time_unit and time_origin to auto, or set point_time to "
-                     "none.");
+    throw InputError(
+        path_, "point times are asked for, but there are " + convention.evidence,
+        "Leave input.time_field empty and input.time_unit and input.time_origin at auto, "
+        "or set input.point_time to none.");
   }
   return convention;
 }

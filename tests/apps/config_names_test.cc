@@ -75,6 +75,7 @@ TEST_F(ConfigNamesTest, MisspeltNamesAndMissingFilesAreExplained) {
   EXPECT_THAT(Error("xyzzyplugh"), HasSubstr("--list_configs"));
   setenv("TRAJLO_CONFIG_DIR", "/nowhere", 1);
   EXPECT_THAT(Error("ouster"), HasSubstr("TRAJLO_CONFIG_DIR: '/nowhere' is not a folder"));
+  EXPECT_THAT(Error("mine.yaml"), HasSubstr("there is no file 'mine.yaml'"));
   unsetenv("TRAJLO_CONFIG_DIR");  // This test is in no bin/ folder with share/ beside it.
   EXPECT_THAT(Error("ouster"), HasSubstr("share/trajlo/config"));
 }
