@@ -14,8 +14,10 @@
 #include "apps/usage_error.h"
 #include "core/io/conversion/scan_bag_writer.h"
 
+DEFINE_string(input, "", "the recording; in place of the first argument");
+DEFINE_string(output, "", "the bag, folder or file to write; in place of the last argument");
 DEFINE_string(topics, "", "of a bag, separated by commas; empty for all");
-DEFINE_double(start_s, 0.0, "skip so much of the recording");
+DEFINE_double(start_s, 0.0, "skip this much of the recording");
 DEFINE_double(duration_s, 0.0, "the length of the excerpt; 0 for all");
 DEFINE_string(layout, "", "of the points in a bag: ouster, velodyne or livox");
 DEFINE_string(compression, "none", "of a bag: none, lz4 or bz2");
@@ -36,8 +38,8 @@ constexpr char kHelp[] =
   trajlo_convert recording.bag part.bag --start_s=60 --duration_s=30
       an excerpt; messages of all topics are copied byte by byte (ROS 1 bags), by when they were
       recorded
-  trajlo_convert broken.bag mended.bag --compression=lz4
-      everything that can be read, with an index again
+  trajlo_convert broken.bag repaired.bag --compression=lz4
+      everything that can be read, with a new index
   trajlo_convert recording.mcap recording.bag --layout=ouster
       the points of ROS 2 bags, captures (.pcap) and folders of scans as a ROS 1 bag; a layout given
       for a ROS 1 bag converts its points instead of copying its messages
@@ -49,20 +51,26 @@ constexpr char kHelp[] =
       (ROS 1 and ROS 2)
 
 Flags:
-  --topics=A,B                  of a bag; empty takes all
+  -o, --output=OUTPUT           the same as the last argument
+  --input=INPUT                 the same as the first argument
+  --topics=A,B                  of a bag; all of them if empty
   --start_s=S --duration_s=S    from the first message (of its kind) on
   --layout=ouster|velodyne|livox
   --compression=none|lz4|bz2    of the bag
-  --set=input.time_unit=us, --config=FILE   how point times are meant, as for trajlo_run
-  --overwrite, --quiet, --version
+  --poses=TOPIC                 write the poses of this topic
+  --set=input.time_unit=us, --config=NAME   how point times are meant, as for trajlo_run
+  --overwrite                   replace an earlier result
+  --quiet                       print warnings and errors only
+  -h, --help, --version
 
-Points keep their positions and times: to the ns in the layouts of Ouster and Livox and in PCD (field
-t, uint32, ns), to 4 ns in Velodyne's (float32, s). Livox's has whole intensities from 0 to 255. Stamps
-become those of the sweeps' starts; scans keep their order, whatever the stamps. Rings and other
-fields are kept only where messages are copied.
+Points keep their positions and times: to 1 ns in the layouts of Ouster and Livox and in PCD (field t,
+uint32, ns), to 4 ns in Velodyne's (float32, s). Livox's layout has whole intensities from 0 to 255.
+Stamps become those of the starts of the sweeps; scans keep their order, whatever the stamps. Rings
+and other fields are kept only where messages are copied.
 
-Exit codes: 0 ok, 1 wrong usage, 2 input unreadable, 3 a part of the input is damaged (the rest is
-written), 5 output not writable, 130 interrupted (what was read is written).
+Exit codes: 0 ok, 1 wrong usage, 2 input unreadable, 3 part of the input is damaged (the rest is
+written), 5 output not writable, 6 out of memory or a defect of the program, 130 interrupted (what
+was read is written).
 )";
 
 trajlo::RecordingOptions RecordingFromFlags() {
@@ -80,8 +88,13 @@ trajlo::RecordingOptions RecordingFromFlags() {
   return config.input;
 }
 
-trajlo::ConvertRequest RequestFromFlags(const std::vector<std::string>& arguments) {
-  if (arguments.size() != 2) throw UsageError("an input and an output are needed");
+/// Arguments and flags may be mixed: trajlo_convert in.bag -o out.bag.
+trajlo::ConvertRequest RequestFromFlags(std::vector<std::string> arguments) {
+  if (!FLAGS_input.empty()) arguments.insert(arguments.begin(), FLAGS_input);
+  if (!FLAGS_output.empty()) arguments.push_back(FLAGS_output);
+  if (arguments.size() != 2) {
+    throw UsageError("an input and an output are needed: trajlo_convert INPUT OUTPUT");
+  }
   trajlo::ConvertRequest request;
   request.input = arguments[0];
   request.output = arguments[1];
@@ -120,8 +133,14 @@ ExitCode Convert(const trajlo::CommandLine& line) {
   return trajlo::ConvertJob(RequestFromFlags(line.arguments), trajlo::HandleInterrupts());
 }
 
+std::vector<std::string> Values(const std::string& flag) {
+  if (flag == "layout") return {"ouster", "velodyne", "livox"};
+  if (flag == "compression") return {"none", "lz4", "bz2"};
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  return trajlo::RunCommand({"trajlo_convert", kHelp, Convert}, argc, argv);
+  return trajlo::RunCommand({"trajlo_convert", kHelp, Convert, Values, true}, argc, argv);
 }

@@ -15,8 +15,8 @@ constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, Time
 /// Bounds what a wrong unit given by the user can do.
 constexpr double kLongestSweep = 1000.0;
 constexpr char kMend[] =
-    "Say it with time_unit (s, ms, us, ns) and time_origin (start, stamp, end, absolute), name "
-    "another time_field, or set point_time to none for motion-corrected scans.";
+    "Set input.time_unit (s, ms, us, ns) and input.time_origin (start, stamp, end, absolute), or "
+    "another input.time_field; for motion-corrected scans, input.point_time=none.";
 
 std::string Number(double value) {
   char text[40];

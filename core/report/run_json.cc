@@ -93,7 +93,10 @@ Json ResourcesJson(const RunSummary& s) {
 
 std::string RunJson(const RunSummary& s) {
   const Json json = {
-      {"exit", {{"code", s.exit_code}, {"reason", s.exit_reason}, {"message", s.message}}},
+      {"exit",
+       {{"code", s.exit_code ? Json(*s.exit_code) : Json(nullptr)},
+        {"reason", s.exit_reason},
+        {"message", s.message}}},
       {"versions", VersionsJson()},
       {"command_line", s.command_line},
       {"output", s.output},

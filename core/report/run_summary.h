@@ -16,7 +16,7 @@ namespace trajlo {
 /// All that is said about a run when it is over, in run.json and in the table on the screen.
 struct RunSummary {
   // How it ended. The reason is one word: running (or killed), ok, partial_input, ...
-  int exit_code = 0;
+  std::optional<int> exit_code;  ///< Nothing until it has ended.
   std::string exit_reason = "running";
   std::string message;
   std::vector<std::string> warnings;

@@ -81,8 +81,8 @@ std::string SummaryTable(const RunSummary& s) {
     table += Line("warnings", Format("%zu, listed in run.json", s.warnings.size()));
   }
   if (s.lost_at_ns) table += Line("LOST", "at " + FormatSeconds(*s.lost_at_ns) + " s");
-  table += Line("result",
-                s.exit_reason + " (exit code " + std::to_string(s.exit_code) + "), in " + s.output);
+  table += Line("result", s.exit_reason + " (exit code " + std::to_string(s.exit_code.value_or(0)) +
+                              "), in " + s.output);
   return table;
 }
 

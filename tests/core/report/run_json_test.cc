@@ -106,6 +106,7 @@ TEST(RunJson, ARunWithoutAResultIsStillValid) {
   const nlohmann::json json = nlohmann::json::parse(RunJson({}));
   EXPECT_TRUE(json["result"]["begin_s"].is_null());
   EXPECT_EQ(json["exit"]["reason"], "running");
+  EXPECT_TRUE(json["exit"]["code"].is_null());
 }
 
 TEST(RunJson, SurvivesPathsThatAreNotUtf8) {
