@@ -19,8 +19,8 @@ namespace trajlo {
 ///
 /// with J the derivative of the point's distance by the newest pose: a point is doubted in
 /// proportion to how far it may be off, and the kernel c, which is in units of sigma /
-/// sqrt(weight), becomes c sqrt(1 + f). Where the prediction is good, f is small for all points and
-/// nothing happens. Idea: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al.,
+/// sqrt(weight), becomes c sqrt(1 + f). Where the prediction is good, f is small for most points
+/// and nothing happens. Idea: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al.,
 /// Graduated Non-Convexity for Robust Spatial Perception, RA-L 2020.
 class Graduation {
  public:
