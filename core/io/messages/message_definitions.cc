@@ -124,92 +124,99 @@ std::string Ros2Definition(std::string_view ros1_definition) {
 }
 
 const MessageDescription& PointCloud2Description() {
-  static const MessageDescription description{
-      "sensor_msgs/PointCloud2", "1158d486dd51d683ce2f1be655c3c181",
-      Join("std_msgs/Header header\n"
-           "uint32 height\n"
-           "uint32 width\n"
-           "sensor_msgs/PointField[] fields\n"
-           "bool is_bigendian\n"
-           "uint32 point_step\n"
-           "uint32 row_step\n"
-           "uint8[] data\n"
-           "bool is_dense\n",
-           {kHeader, kPointField})};
+  static const MessageDescription description{"sensor_msgs/PointCloud2",
+                                              "1158d486dd51d683ce2f1be655c3c181",
+                                              Join("std_msgs/Header header\n"
+                                                   "uint32 height\n"
+                                                   "uint32 width\n"
+                                                   "sensor_msgs/PointField[] fields\n"
+                                                   "bool is_bigendian\n"
+                                                   "uint32 point_step\n"
+                                                   "uint32 row_step\n"
+                                                   "uint8[] data\n"
+                                                   "bool is_dense\n",
+                                                   {kHeader, kPointField})};
   return description;
 }
 
 const MessageDescription& LivoxCustomMsgDescription() {
-  static const MessageDescription description{
-      "livox_ros_driver/CustomMsg", "e4d6829bdfe657cb6c21a746c86b21a6",
-      Join("std_msgs/Header header\n"
-           "uint64 timebase\n"
-           "uint32 point_num\n"
-           "uint8 lidar_id\n"
-           "uint8[3] rsvd\n"
-           "livox_ros_driver/CustomPoint[] points\n",
-           {kHeader, kLivoxPoint})};
+  static const MessageDescription description{"livox_ros_driver/CustomMsg",
+                                              "e4d6829bdfe657cb6c21a746c86b21a6",
+                                              Join("std_msgs/Header header\n"
+                                                   "uint64 timebase\n"
+                                                   "uint32 point_num\n"
+                                                   "uint8 lidar_id\n"
+                                                   "uint8[3] rsvd\n"
+                                                   "livox_ros_driver/CustomPoint[] points\n",
+                                                   {kHeader, kLivoxPoint})};
   return description;
 }
 
 const MessageDescription& PoseStampedDescription() {
-  static const MessageDescription description{
-      "geometry_msgs/PoseStamped", "d3812c3cbc69362b77dc0b19b345f8f5",
-      Join("std_msgs/Header header\n"
-           "geometry_msgs/Pose pose\n",
-           {kHeader, kPose, kPoint, kQuaternion})};
+  static const MessageDescription description{"geometry_msgs/PoseStamped",
+                                              "d3812c3cbc69362b77dc0b19b345f8f5",
+                                              Join("std_msgs/Header header\n"
+                                                   "geometry_msgs/Pose pose\n",
+                                                   {kHeader, kPose, kPoint, kQuaternion})};
   return description;
 }
 
 const MessageDescription& OdometryDescription() {
-  static const MessageDescription description{
-      "nav_msgs/Odometry", "cd5e73d190d741a2f92e81eda573aca7",
-      Join("std_msgs/Header header\n"
-           "string child_frame_id\n"
-           "geometry_msgs/PoseWithCovariance pose\n"
-           "geometry_msgs/TwistWithCovariance twist\n",
-           {kHeader,
-            "MSG: geometry_msgs/PoseWithCovariance\n"
-            "geometry_msgs/Pose pose\n"
-            "float64[36] covariance\n",
-            kPose, kPoint, kQuaternion,
-            "MSG: geometry_msgs/TwistWithCovariance\n"
-            "geometry_msgs/Twist twist\n"
-            "float64[36] covariance\n",
-            "MSG: geometry_msgs/Twist\n"
-            "geometry_msgs/Vector3 linear\n"
-            "geometry_msgs/Vector3 angular\n",
-            kVector3})};
+  static const MessageDescription description{"nav_msgs/Odometry",
+                                              "cd5e73d190d741a2f92e81eda573aca7",
+                                              Join("std_msgs/Header header\n"
+                                                   "string child_frame_id\n"
+                                                   "geometry_msgs/PoseWithCovariance pose\n"
+                                                   "geometry_msgs/TwistWithCovariance twist\n",
+                                                   {kHeader,
+                                                    "MSG: geometry_msgs/PoseWithCovariance\n"
+                                                    "geometry_msgs/Pose pose\n"
+                                                    "float64[36] covariance\n",
+                                                    kPose, kPoint, kQuaternion,
+                                                    "MSG: geometry_msgs/TwistWithCovariance\n"
+                                                    "geometry_msgs/Twist twist\n"
+                                                    "float64[36] covariance\n",
+                                                    "MSG: geometry_msgs/Twist\n"
+                                                    "geometry_msgs/Vector3 linear\n"
+                                                    "geometry_msgs/Vector3 angular\n",
+                                                    kVector3})};
   return description;
 }
 
 const MessageDescription& PathDescription() {
-  static const MessageDescription description{
-      "nav_msgs/Path", "6227e2b7e9cce15051f669a5e197bbf7",
-      Join("std_msgs/Header header\n"
-           "geometry_msgs/PoseStamped[] poses\n",
-           {kHeader,
-            "MSG: geometry_msgs/PoseStamped\n"
-            "std_msgs/Header header\n"
-            "geometry_msgs/Pose pose\n",
-            kPose, kPoint, kQuaternion})};
+  static const MessageDescription description{"nav_msgs/Path", "6227e2b7e9cce15051f669a5e197bbf7",
+                                              Join("std_msgs/Header header\n"
+                                                   "geometry_msgs/PoseStamped[] poses\n",
+                                                   {kHeader,
+                                                    "MSG: geometry_msgs/PoseStamped\n"
+                                                    "std_msgs/Header header\n"
+                                                    "geometry_msgs/Pose pose\n",
+                                                    kPose, kPoint, kQuaternion})};
   return description;
 }
 
 const MessageDescription& TfMessageDescription() {
   static const MessageDescription description{
       "tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec",
-      Join("geometry_msgs/TransformStamped[] transforms\n",
-           {"MSG: geometry_msgs/TransformStamped\n"
-            "std_msgs/Header header\n"
-            "string child_frame_id\n"
-            "geometry_msgs/Transform transform\n",
-            kHeader,
-            "MSG: geometry_msgs/Transform\n"
-            "geometry_msgs/Vector3 translation\n"
-            "geometry_msgs/Quaternion rotation\n",
-            kVector3, kQuaternion})};
+      Join("geometry_msgs/TransformStamped[] transforms\n", {"MSG: geometry_msgs/TransformStamped\n"
+                                                             "std_msgs/Header header\n"
+                                                             "string child_frame_id\n"
+                                                             "geometry_msgs/Transform transform\n",
+                                                             kHeader,
+                                                             "MSG: geometry_msgs/Transform\n"
+                                                             "geometry_msgs/Vector3 translation\n"
+                                                             "geometry_msgs/Quaternion rotation\n",
+                                                             kVector3, kQuaternion})};
   return description;
+}
+
+const MessageDescription* FindDescription(std::string_view type) {
+  for (const MessageDescription* known :
+       {&PointCloud2Description(), &LivoxCustomMsgDescription(), &PoseStampedDescription(),
+        &OdometryDescription(), &PathDescription(), &TfMessageDescription()}) {
+    if (Ros2TypeName(known->type) == Ros2TypeName(type)) return known;
+  }
+  return nullptr;
 }
 
 }  // namespace trajlo

@@ -43,5 +43,7 @@ const MessageDescription& PoseStampedDescription();
 const MessageDescription& OdometryDescription();
 const MessageDescription& PathDescription();
 const MessageDescription& TfMessageDescription();
+/// That of these with such a type, by its name in ROS 1 or ROS 2; null if there is none.
+const MessageDescription* FindDescription(std::string_view type);
 
 }  // namespace trajlo

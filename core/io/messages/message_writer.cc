@@ -140,12 +140,15 @@ std::string WriteLivox(const MessageHeader& header, std::int64_t sweep_start_ns,
   const bool is_cdr = encoding == Encoding::kCdr;
   const std::size_t step = is_cdr ? 20 : 19;
   const std::size_t beyond = is_cdr && n > 0 ? 1 : 0;
-  PutPoints(step, scan, [&](char* at, const LidarPoint& point) {
-    Put(at, 0, OffsetNs(point, sweep_start_ns));
-    PutXyz(at, 4, point);
-    Put(at, 16, Rounded<std::uint8_t>(point.intensity));
-    Put(at, 17, kNormalPoint);
-  }, &out);
+  PutPoints(
+      step, scan,
+      [&](char* at, const LidarPoint& point) {
+        Put(at, 0, OffsetNs(point, sweep_start_ns));
+        PutXyz(at, 4, point);
+        Put(at, 16, Rounded<std::uint8_t>(point.intensity));
+        Put(at, 17, kNormalPoint);
+      },
+      &out);
   std::string bytes = out.Take();
   bytes.resize(bytes.size() - beyond);
   return bytes;

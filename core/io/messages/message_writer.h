@@ -40,8 +40,8 @@ const MessageDescription& DescriptionOf(CloudLayout layout);
 std::string WriteCloud(CloudLayout layout, const MessageHeader& header, std::int64_t sweep_start_ns,
                        const LidarScan& scan, Encoding encoding = Encoding::kRos1);
 
-/// sensor_msgs/PointCloud2 whose fields are all float32: `values` are those of the first point, then
-/// those of the second, ...
+/// sensor_msgs/PointCloud2 whose fields are all float32: `values` are those of the first point,
+/// then those of the second, ...
 std::string WriteFloatCloud(const MessageHeader& header, const std::vector<std::string>& fields,
                             const std::vector<float>& values, Encoding encoding);
 

@@ -31,8 +31,8 @@ Db3Writer::Db3Writer(const std::filesystem::path& path, IfExists if_exists) : pa
   file_.emplace(path, if_exists);
   sqlite3* database = nullptr;
   // An empty file is an empty database.
-  const int result = sqlite3_open_v2(file_->part_path().c_str(), &database,
-                                     SQLITE_OPEN_READWRITE, nullptr);
+  const int result =
+      sqlite3_open_v2(file_->part_path().c_str(), &database, SQLITE_OPEN_READWRITE, nullptr);
   database_.reset(database);
   Check(result);
   // What is broken is thrown away as a whole, and the file is synchronised at its end.
@@ -40,8 +40,7 @@ Db3Writer::Db3Writer(const std::filesystem::path& path, IfExists if_exists) : pa
   Execute("PRAGMA synchronous = OFF");
   Execute("BEGIN");
   Execute(kTables);
-  insert_message_ =
-      Prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES(?1, ?2, ?3)");
+  insert_message_ = Prepare("INSERT INTO messages(topic_id, timestamp, data) VALUES(?1, ?2, ?3)");
 }
 
 void Db3Writer::Write(const TopicDescription& topic, std::int64_t recorded_ns,

@@ -43,6 +43,9 @@ struct McapSchema {
   std::uint16_t id = 0;
   /// "sensor_msgs/msg/PointCloud2"
   std::string name;
+  /// "ros2msg", "ros1msg", "ros2idl", "protobuf", ... and the text of the interface in it.
+  std::string language;
+  std::string text;
 };
 std::optional<McapSchema> ParseMcapSchema(std::string_view content);
 
@@ -52,6 +55,8 @@ struct McapChannel {
   std::string topic;
   /// "cdr", "ros1", ...
   std::string encoding;
+  /// What rosbag2 notes of the qualities of service.
+  std::string qos;
 };
 std::optional<McapChannel> ParseMcapChannel(std::string_view content);
 

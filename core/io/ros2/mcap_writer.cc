@@ -46,8 +46,7 @@ McapWriter::McapWriter(const std::filesystem::path& path, const McapOptions& opt
     : path_(path), options_(options) {
   file_.emplace(path, options.if_exists);
   Append(std::string(kMcapMagic) +
-         Record(McapOpcode::kHeader,
-                Content().PutString("ros2").PutString("trajlo").bytes()));
+         Record(McapOpcode::kHeader, Content().PutString("ros2").PutString("trajlo").bytes()));
 }
 
 void McapWriter::Write(const TopicDescription& topic, std::int64_t recorded_ns,
@@ -166,21 +165,20 @@ void McapWriter::AddChunkIndex(std::uint64_t chunk_offset, std::size_t stored_si
   for (const auto& [channel, messages] : chunk_index_) {
     places.Put(channel).Put(file_bytes_);
     message_count_ += messages.size() / 16;
-    Append(Record(McapOpcode::kMessageIndex,
-                  Content().Put(channel).PutBlock(messages).bytes()));
+    Append(Record(McapOpcode::kMessageIndex, Content().Put(channel).PutBlock(messages).bytes()));
   }
-  chunk_records_ += Record(McapOpcode::kChunkIndex,
-                           Content()
-                               .Put(chunk_start_ns_)
-                               .Put(chunk_end_ns_)
-                               .Put(chunk_offset)
-                               .Put(index_offset - chunk_offset)
-                               .PutBlock(places.bytes())
-                               .Put(file_bytes_ - index_offset)
-                               .PutString(CompressionName(options_.compression))
-                               .Put(static_cast<std::uint64_t>(stored_size))
-                               .Put(static_cast<std::uint64_t>(chunk_.size()))
-                               .bytes());
+  chunk_records_ +=
+      Record(McapOpcode::kChunkIndex, Content()
+                                          .Put(chunk_start_ns_)
+                                          .Put(chunk_end_ns_)
+                                          .Put(chunk_offset)
+                                          .Put(index_offset - chunk_offset)
+                                          .PutBlock(places.bytes())
+                                          .Put(file_bytes_ - index_offset)
+                                          .PutString(CompressionName(options_.compression))
+                                          .Put(static_cast<std::uint64_t>(stored_size))
+                                          .Put(static_cast<std::uint64_t>(chunk_.size()))
+                                          .bytes());
 }
 
 void McapWriter::WriteSummary() {
@@ -208,12 +206,12 @@ void McapWriter::WriteSummary() {
   std::string summary, offsets;
   for (const auto& [opcode, records] : groups) {
     if (records.empty()) continue;
-    offsets += Record(McapOpcode::kSummaryOffset,
-                      Content()
-                          .Put(static_cast<std::uint8_t>(opcode))
-                          .Put(file_bytes_ + summary.size())
-                          .Put(static_cast<std::uint64_t>(records.size()))
-                          .bytes());
+    offsets +=
+        Record(McapOpcode::kSummaryOffset, Content()
+                                               .Put(static_cast<std::uint8_t>(opcode))
+                                               .Put(file_bytes_ + summary.size())
+                                               .Put(static_cast<std::uint64_t>(records.size()))
+                                               .bytes());
     summary += records;
   }
   const std::uint64_t offsets_start = file_bytes_ + summary.size();

@@ -24,8 +24,8 @@ struct McapOptions {
   IfExists if_exists = IfExists::kFail;
 };
 
-/// Writes an MCAP file (https://mcap.dev/spec) as ROS 2 does: chunks with checksums and indices, and
-/// a summary with the interfaces, so that players can seek and decode without ROS.
+/// Writes an MCAP file (https://mcap.dev/spec) as ROS 2 does: chunks with checksums and indices,
+/// and a summary with the interfaces, so that players can seek and decode without ROS.
 class McapWriter : public BagWriter {
  public:
   explicit McapWriter(const std::filesystem::path& path, const McapOptions& options = {});

@@ -26,8 +26,8 @@ std::string PackLz4(std::string_view bytes) {
   LZ4F_preferences_t preferences{};
   preferences.frameInfo.contentChecksumFlag = LZ4F_contentChecksumEnabled;
   std::string packed(LZ4F_compressFrameBound(bytes.size(), &preferences), '\0');
-  const std::size_t size = LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(),
-                                              bytes.size(), &preferences);
+  const std::size_t size =
+      LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), &preferences);
   if (LZ4F_isError(size) != 0) {
     throw std::runtime_error(std::string("lz4: ") + LZ4F_getErrorName(size));
   }
