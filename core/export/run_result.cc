@@ -25,7 +25,8 @@ void TakeSummary(const fs::path& path, RunResult* result) {
   try {
     const Json json = Json::parse(file);
     result->inputs = json.at("input").at("paths").get<std::vector<std::string>>();
-    if (ReadAllOfIt(json.at("exit").at("code").get<int>())) {
+    const Json& code = json.at("exit").at("code");
+    if (code.is_number() && ReadAllOfIt(code.get<int>())) {
       result->scans_read = json.at("input").at("scans").at("read").get<std::size_t>();
     }
     const Json& lost_at_s = json.at("result").at("lost_at_s");

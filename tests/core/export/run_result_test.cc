@@ -11,8 +11,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string Summary(int exit_code, const std::string& lost_at) {
-  return R"({"exit": {"code": )" + std::to_string(exit_code) +
+std::string Summary(const std::string& exit_code, const std::string& lost_at) {
+  return R"({"exit": {"code": )" + exit_code +
          R"(}, "input": {"paths": ["room"], "scans": {"read": 7}}, "result": {"lost_at_s": )" +
          lost_at + "}}";
 }
@@ -20,7 +20,7 @@ std::string Summary(int exit_code, const std::string& lost_at) {
 class Result : public ::testing::Test {
  protected:
   Result() {
-    WriteFile(folder_ / "run.json", Summary(0, "null"));
+    WriteFile(folder_ / "run.json", Summary("0", "null"));
     WriteFile(folder_ / "config.yaml", "segmenter: {max_gap_s: 2.5}\n");
     WriteFile(
         folder_ / "trajectory.tum",
@@ -53,17 +53,19 @@ TEST_F(Result, IsReadWithTimesToTheNanosecondAndFlags) {
 }
 
 TEST_F(Result, PosesFromWhereItGotLostAreLeftOutUnlessTheyAreWanted) {
-  WriteFile(folder_ / "run.json", Summary(4, "\"1.200000000\""));
+  WriteFile(folder_ / "run.json", Summary("4", "\"1.200000000\""));
   const RunResult result = ReadRunResult(folder_.path());
   EXPECT_EQ(result.trajectory.poses().size(), 2u);
   EXPECT_EQ(result.poses_left_out, 2u);
   EXPECT_EQ(ReadRunResult(folder_.path(), {true}).trajectory.poses().size(), 4u);
-  WriteFile(folder_ / "run.json", Summary(4, "\"0.5\""));
+  WriteFile(folder_ / "run.json", Summary("4", "\"0.5\""));
   EXPECT_THAT(MessageOf(), HasSubstr("--keep_lost"));
 }
 
 TEST_F(Result, AnInterruptedRunDoesNotKnowHowManyScansThereAre) {
-  WriteFile(folder_ / "run.json", Summary(130, "null"));
+  WriteFile(folder_ / "run.json", Summary("130", "null"));
+  EXPECT_FALSE(ReadRunResult(folder_.path()).scans_read);
+  WriteFile(folder_ / "run.json", Summary("null", "null"));  // Killed.
   EXPECT_FALSE(ReadRunResult(folder_.path()).scans_read);
 }
 
