@@ -186,13 +186,14 @@ ExitCode WriteScanFolder(const ConvertRequest& request, const RunResult& result,
   replay.Run(stop, [&](const PlacedScan& scan) {
     folders.at(static_cast<std::size_t>(scan.lidar_id))->Write(scan);
   });
+  const ExitCode code = replay.Judge();
   for (const auto& folder : folders) folder->Close();
   if (!request.quiet) {
     std::printf("%zu deskewed scans in the %s frame, and their poses, in %s\n", replay.scans(),
                 request.exports.frame == PointFrame::kBody ? "body" : "world",
                 request.output.c_str());
   }
-  return replay.Judge();
+  return code;
 }
 
 /// The scans and the map, as far as they are wanted.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/result_bag.h"
 
+#include <algorithm>
+
 #include "core/export/map_file.h"
 #include "core/io/messages/message_writer.h"
 #include "core/io/messages/navigation_messages.h"
@@ -42,7 +44,8 @@ ResultBag::ResultBag(const RunResult& result, PointFrame frame, std::size_t lida
 void ResultBag::WriteStaticFrames(std::size_t lidars) {
   const std::vector<SE3>& extrinsics = result_.config.odometry.segmenter.T_body_lidar;
   std::vector<StampedTransform> frames;
-  for (std::size_t i = 0; i < lidars; ++i) {
+  // Without the recording, the configuration alone knows of all LiDARs.
+  for (std::size_t i = 0; i < std::max(lidars, extrinsics.size()); ++i) {
     frames.push_back({begin_ns(), kBody, "lidar" + std::to_string(i),
                       i < extrinsics.size() ? extrinsics[i] : SE3()});
   }

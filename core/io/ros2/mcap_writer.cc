@@ -181,23 +181,26 @@ void McapWriter::AddChunkIndex(std::uint64_t chunk_offset, std::size_t stored_si
                                           .bytes());
 }
 
-void McapWriter::WriteSummary() {
+std::string McapWriter::StatisticsRecord() const {
   WireWriter counts = Content();
   for (const auto& [name, channel] : channels_) {
     counts.Put(channel.id).Put(std::uint64_t{channel.messages});
   }
-  const std::string statistics =
-      Record(McapOpcode::kStatistics, Content()
-                                          .Put(message_count_)
-                                          .Put(static_cast<std::uint16_t>(schemas_.size()))
-                                          .Put(static_cast<std::uint32_t>(channels_.size()))
-                                          .Put(std::uint32_t{0})  // attachments
-                                          .Put(std::uint32_t{0})  // metadata
-                                          .Put(chunk_count_)
-                                          .Put(start_ns_)
-                                          .Put(end_ns_)
-                                          .PutBlock(counts.bytes())
-                                          .bytes());
+  return Record(McapOpcode::kStatistics, Content()
+                                             .Put(message_count_)
+                                             .Put(static_cast<std::uint16_t>(schemas_.size()))
+                                             .Put(static_cast<std::uint32_t>(channels_.size()))
+                                             .Put(std::uint32_t{0})  // attachments
+                                             .Put(std::uint32_t{0})  // metadata
+                                             .Put(chunk_count_)
+                                             .Put(start_ns_)
+                                             .Put(end_ns_)
+                                             .PutBlock(counts.bytes())
+                                             .bytes());
+}
+
+void McapWriter::WriteSummary() {
+  const std::string statistics = StatisticsRecord();
   const std::pair<McapOpcode, std::string_view> groups[] = {
       {McapOpcode::kSchema, schema_records_},
       {McapOpcode::kChannel, channel_records_},

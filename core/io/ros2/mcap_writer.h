@@ -46,6 +46,7 @@ class McapWriter : public BagWriter {
   void FinishChunk();
   void WriteChunk(std::string_view stored);
   void AddChunkIndex(std::uint64_t chunk_offset, std::size_t stored_size);
+  std::string StatisticsRecord() const;
   void WriteSummary();
   void Append(std::string_view bytes);
 
