@@ -14,6 +14,8 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r";
 /// Deeper than any interface.
 constexpr int kDeepest = 20;
+/// Parts of a message that take no bytes.
+constexpr std::size_t kSpareSteps = 1'000'000;
 
 /// "std_msgs/msg/Header" is "std_msgs/Header".
 std::string WithoutMsg(std::string_view type) {
@@ -151,7 +153,7 @@ class MessageSchema::Parser {
 class MessageSchema::Rewriter {
  public:
   Rewriter(const std::vector<Type>& types, std::string_view bytes, Encoding from, Encoding to)
-      : types_(types), in_(bytes, from), out_(to) {}
+      : types_(types), in_(bytes, from), out_(to), steps_left_(kSpareSteps + bytes.size()) {}
 
   std::optional<std::string> Run() {
     Copy(0, 0);
@@ -162,10 +164,9 @@ class MessageSchema::Rewriter {
 
  private:
   void Copy(std::size_t type, int depth) {
-    if (depth > kDeepest) {
-      in_.ReadBytes(in_.remaining() + 1);
-      return;
-    }
+    // Broken interfaces may contain themselves, or arrays without end of what takes no bytes.
+    if (depth > kDeepest || steps_left_ == 0) return Fail();
+    --steps_left_;
     // CDR knows no structure without members.
     if (types_[type].empty()) {
       if (in_.is_cdr()) in_.Read<std::uint8_t>();
@@ -176,7 +177,7 @@ class MessageSchema::Rewriter {
       if (field.array == Array::kSequence) {
         count = CopyNumber<std::uint32_t>();
         // Every element has a byte at least.
-        if (count > in_.remaining()) in_.ReadBytes(in_.remaining() + 1);
+        if (count > in_.remaining()) return Fail();
       }
       if (field.kind == Kind::kNumber) {
         CopyNumbers(field.bytes, count);
@@ -185,6 +186,8 @@ class MessageSchema::Rewriter {
       }
     }
   }
+
+  void Fail() { in_.ReadBytes(in_.remaining() + 1); }
 
   template <typename T>
   T CopyNumber() {
@@ -228,6 +231,7 @@ class MessageSchema::Rewriter {
   const std::vector<Type>& types_;
   WireReader in_;
   WireWriter out_;
+  std::size_t steps_left_;
 };
 
 std::optional<MessageSchema> MessageSchema::Parse(std::string_view type, std::string_view text) {

@@ -126,6 +126,10 @@ TEST(MessageSchema, InterfacesThatAreNotWholeAreNone) {
   // One that contains itself has no end.
   const auto endless = MessageSchema::Parse("own/A", "own/A a\n");
   EXPECT_TRUE(!endless || !endless->Rewrite("", Encoding::kRos1, Encoding::kCdr));
+  const auto wide = MessageSchema::Parse(
+      "own/A", "own/B[4000000000] parts\n====\nMSG: own/B\n====\nMSG: own/C\nint8 x\n");
+  ASSERT_TRUE(wide);
+  EXPECT_FALSE(wide->Rewrite("", Encoding::kRos1, Encoding::kCdr));
 }
 
 TEST(Ros2Definition, HasTimesAndHeadersOfRos2) {
