@@ -21,7 +21,7 @@ class Result : public ::testing::Test {
  protected:
   Result() {
     WriteFile(folder_ / "run.json", Summary("0", "null"));
-    WriteFile(folder_ / "config.yaml", "segmenter: {max_gap_s: 2.5}\n");
+    WriteFile(folder_ / "config.yaml", "expert: {segmenter: {max_gap_s: 2.5}}\n");
     WriteFile(
         folder_ / "trajectory.tum",
         "1.000000001 0 0 0 0 0 0 1\n1.1 1 0 0 0 0 0 1\n1.2 2 0 0 0 0 0 1\n1.3 3 0 0 0 0 0 1\n");
