@@ -96,6 +96,12 @@ void BagIndex::AddConnection(const Connection& connection) {
   topic_of_connection[connection.id] = static_cast<std::size_t>(known - topics.begin());
   if (known == topics.end()) {
     topics.push_back({connection.topic, connection.type, Encoding::kRos1, 0});
+    const Fields fields = connection.fields();
+    const auto text = [&](const char* name) {
+      return std::string(fields.Find(name).value_or(std::string_view()));
+    };
+    topics.back().interface = {connection.type, text("md5sum"), text("message_definition")};
+    topics.back().is_latched = text("latching") == "1";
   }
 }
 
