@@ -128,9 +128,8 @@ std::string Trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
 }
 
-}  // namespace
-
-void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config) {
+void LoadYaml(const std::string& yaml, const std::string& name, bool with_places,
+              RunConfig* config) {
   YAML::Node root;
   try {
     root = YAML::Load(yaml);
@@ -142,12 +141,22 @@ void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig*
   if (root.IsNull()) return;
   // Work on a copy: a file with an error changes nothing.
   RunConfig loaded = *config;
-  Loader loader(name, true, &loaded);
+  Loader loader(name, with_places, &loaded);
   if (!root.IsMap()) {
     loader.Fail(root, "expected sections with keys, such as 'window: {segments: 4}'");
   }
   loader.Walk("", root);
   *config = loaded;
+}
+
+}  // namespace
+
+void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config) {
+  LoadYaml(yaml, name, true, config);
+}
+
+void LoadConfigValues(const std::string& yaml, const std::string& name, RunConfig* config) {
+  LoadYaml(yaml, name, false, config);
 }
 
 void LoadConfigFile(const std::filesystem::path& path, RunConfig* config) {
