@@ -32,7 +32,7 @@ class ResultsTest(FolderTest):
         self.assertGreater(count, 15)
         self.assertEqual({len(column) for column in windows.values()}, {count})
         self.assertEqual(windows["points"].dtype, np.int64)
-        self.assertEqual(windows["threshold_m"].dtype, np.float64)
+        self.assertEqual(windows["inlier_share"].dtype, np.float64)
         self.assertEqual(windows["flag_names"].dtype.kind, "U")
         np.testing.assert_allclose(windows["begin_s"], 1e-9 * windows["begin_ns"], atol=1e-6)
         np.testing.assert_array_equal(windows["index"], np.arange(count))

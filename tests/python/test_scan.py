@@ -2,6 +2,7 @@
 """Arrays in, views out; what does not fit is refused with its name, and never a crash."""
 import gc
 import unittest
+import warnings
 
 import numpy as np
 
@@ -106,6 +107,40 @@ class ScanTest(unittest.TestCase):
             with self.subTest(message):
                 with self.assertRaisesRegex(trajlo.InputError, message):
                     trajlo.Scan(**{"points": points, "stamp_ns": STAMP, **wrong})
+
+    def test_any_arrays_make_a_scan_or_an_error(self):
+        random = np.random.default_rng(1)
+        types = ["f4", "f8", ">f4", "f2", "i2", "i8", "u1", "u8", "?", "c16", "U3", "O", "M8[ns]"]
+        extremes = [0, -1, 2**63 - 1, -2**63, 1e300, -1e300, np.nan, np.inf]
+
+        def array():
+            if random.uniform() < 0.1:
+                return [None, "points", 3, -1.5, [], [[1, 2, 3]], {}, b"", True][random.integers(9)]
+            shape = [(4, 3), (4,), (0, 3), (0,), (3, 4), (), (4, 3, 1), (5, 3)][random.integers(8)]
+            made = np.zeros(shape, dtype="f8")
+            if made.size and random.uniform() < 0.5:
+                made.flat[random.integers(made.size)] = random.choice(extremes)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                try:
+                    return made.astype(random.choice(types))[::random.choice([1, -1, 2])]
+                except (ValueError, IndexError):
+                    return made
+
+        odometry = trajlo.Odometry({"threads": 1})
+        made = 0
+        for _ in range(3000):
+            arguments = {name: array() for name in ("times_s", "times_ns", "intensities")
+                         if random.uniform() < 0.4}
+            points = array() if random.uniform() < 0.7 else np.zeros((4, 3))
+            try:
+                scan = trajlo.Scan(points, stamp_ns=int(random.integers(-2**62, 2**62)), **arguments)
+            except (trajlo.InputError, TypeError):
+                continue
+            made += 1
+            self.assertEqual(scan.times_s.shape, (len(scan),))
+            odometry.add(scan)
+        self.assertGreater(made, 300)
 
     def test_stamps_are_whole_nanoseconds(self):
         for stamp in (1.5, "now", None, 2**70):

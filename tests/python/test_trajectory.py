@@ -86,6 +86,8 @@ class TrajectoryTest(FolderTest):
         for message, call in [
                 ("increasing|after the one before", lambda: trajlo.Trajectory(times[::-1], poses)),
                 ("after the one before", lambda: trajlo.Trajectory(times * 0, poses)),
+                (r"times_ns\[9\]: must be within", lambda: trajlo.Trajectory(
+                    np.r_[times[:9], 2**62], poses)),
                 ("one element for each", lambda: trajlo.Trajectory(times[:5], poses)),
                 ("of shape .N, 4, 4", lambda: trajlo.Trajectory(times, poses[:, :3])),
                 ("of shape .N, 4, 4", lambda: trajlo.Trajectory(times[:1], poses[0])),

@@ -8,7 +8,7 @@ import urllib.error
 import urllib.request
 
 import trajlo
-from support import ROOT, FolderTest
+from support import BUILD, ROOT, FolderTest
 
 PROGRAM = """
 import sys, trajlo
@@ -50,9 +50,10 @@ class WheelTest(FolderTest):
 
         python = self.folder / "venv" / "bin" / "python"
         run(sys.executable, "-m", "venv", self.folder / "venv")
-        # The flags of the build tree, so that ccache has most of it.
-        run(python, "-m", "pip", "install", "--quiet", "--config-settings=cmake.define.TRAJLO_WERROR=ON",
-            ROOT)
+        # Compiler, flags and depth of the build tree, so that ccache has most of it.
+        run(python, "-m", "pip", "install", "--quiet",
+            f"--config-settings=build-dir={BUILD.resolve()}-wheel",
+            "--config-settings=cmake.define.TRAJLO_WERROR=ON", ROOT)
         (self.folder / "program.py").write_text(PROGRAM)
         where = run(python, "program.py", "installed.tum")
         self.assertIn(str(self.folder / "venv"), where)

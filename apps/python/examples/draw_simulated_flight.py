@@ -33,10 +33,10 @@ def draw(odometry, result, path):
     aligned, truth = result["errors"]["T_world_body"], result["errors"]["T_world_truth"]
     odometry_from_world = odometry.trajectory.poses[0] @ np.linalg.inv(aligned[0])
     truth_there = odometry_from_world @ truth
-    plan.plot(*truth_there[:, :2, 3].T, "--", color="black", label="truth")
+    plan.plot(*truth_there[:, :2, 3].T, color="black", linewidth=5, alpha=0.3, label="truth")
     plan.plot(*positions[:, :2].T, color="tab:blue", label="estimate")
     plan.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
-    plan.legend(loc="upper right")
+    plan.legend(loc="lower right", markerscale=10)
     t_ns = result["errors"]["t_ns"]
     errors.plot(1e-9 * (t_ns - t_ns[0]), 1000 * result["errors"]["translation_m"])
     errors.set(xlabel="time [s]", ylabel="position error [mm]")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -38,6 +39,9 @@ Returns (4, 4) for a number and (M, 4, 4) for an array.)";
 constexpr char kSampleDoc[] =
     R"(A trajectory of the poses at these times, which must increase. Arguments as for at().)";
 
+/// The year 2116: differences of such times fit into int64.
+constexpr std::int64_t kLatest_ns = (std::int64_t{1} << 62) - 1;
+
 std::vector<SE3> PosesOf(const Trajectory& trajectory) {
   std::vector<SE3> poses;
   poses.reserve(trajectory.poses().size());
@@ -53,6 +57,10 @@ Trajectory Make(const std::vector<std::int64_t>& times_ns, const std::vector<SE3
   }
   Trajectory trajectory;
   for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (times_ns[i] < -kLatest_ns || times_ns[i] > kLatest_ns) {
+      throw DataError("times_ns[" + std::to_string(i) + "]: must be within ±2^62 ns, found " +
+                      std::to_string(times_ns[i]));
+    }
     if (i > 0 && times_ns[i] <= times_ns[i - 1]) {
       throw DataError("times_ns[" + std::to_string(i) + "]: must be after the one before, found " +
                       FormatSeconds(times_ns[i]) + " s after " + FormatSeconds(times_ns[i - 1]) +
