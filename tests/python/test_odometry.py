@@ -5,6 +5,7 @@ import threading
 import time
 import unittest
 import warnings
+import weakref
 
 import numpy as np
 
@@ -203,6 +204,32 @@ class CallbackTest(FolderTest):
         self.assertEqual(self.tum_of(odometry.trajectory), self.tum_of(plain.trajectory))
         # The windows after the error of a scan are not told, but kept.
         self.assertEqual(len(odometry.windows["index"]), len(plain.windows["index"]))
+
+    def test_finish_finishes_whatever_a_callback_raises(self):
+        def on_pose(t_ns, T, covariance):
+            raise KeyError(t_ns)
+
+        odometry = trajlo.Odometry({"threads": 1}, on_pose=on_pose)
+        for index in range(8):
+            try:
+                odometry.add(room_scan(index))
+            except KeyError:
+                pass
+        with self.assertRaises(KeyError):
+            odometry.finish()
+        self.assertTrue(odometry.is_finished)
+        with self.assertRaises(trajlo.StateError):
+            odometry.finish()
+        self.assertEqual(self.tum_of(odometry.trajectory), self.tum_of(run_room().trajectory))
+
+    def test_callbacks_do_not_keep_a_finished_odometry(self):
+        odometry = trajlo.Odometry({"threads": 1}, on_window=lambda window: odometry.trajectory)
+        for index in range(4):
+            odometry.add(room_scan(index))
+        odometry.finish()
+        held = weakref.ref(odometry)
+        del odometry
+        self.assertIsNone(held())
 
     def test_a_callback_may_look_but_not_add(self):
         seen, refused = [], []

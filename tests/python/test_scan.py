@@ -134,7 +134,8 @@ class ScanTest(unittest.TestCase):
                          if random.uniform() < 0.4}
             points = array() if random.uniform() < 0.7 else np.zeros((4, 3))
             try:
-                scan = trajlo.Scan(points, stamp_ns=int(random.integers(-2**62, 2**62)), **arguments)
+                stamp_ns = int(random.integers(-2**62, 2**62))
+                scan = trajlo.Scan(points, stamp_ns=stamp_ns, **arguments)
             except (trajlo.InputError, TypeError):
                 continue
             made += 1

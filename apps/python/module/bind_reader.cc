@@ -29,8 +29,14 @@ class Reader {
     return scan;
   }
 
-  std::size_t size() const { return source_->size(); }
-  const std::string& description() const { return source_->description(); }
+  std::size_t size() const {
+    exclusive_.RequireReadable();
+    return source_->size();
+  }
+  const std::string& description() const {
+    exclusive_.RequireReadable();
+    return source_->description();
+  }
 
   py::dict Report() const {
     exclusive_.RequireReadable();

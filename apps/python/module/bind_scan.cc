@@ -15,7 +15,7 @@ namespace {
 
 constexpr char kDoc[] = R"(One scan of one LiDAR. It does not change.
 
-points       (N, 3) float32 or float64, metres, in the frame of the LiDAR; NaN where nothing came back
+points       (N, 3) float32 or float64, metres, in the frame of the LiDAR; NaN for no return
 times_s      (N,) float, seconds after the stamp: when each point was measured
 times_ns     (N,) int, nanoseconds, in the clock of stamp_ns; instead of times_s
 stamp_ns     int, nanoseconds: when the scan was measured

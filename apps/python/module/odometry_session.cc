@@ -55,15 +55,16 @@ void OdometrySession::Call(const Callback& callback) {
 
 template <typename Work>
 void OdometrySession::Compute(const Work& work) {
-  {
-    const Exclusive::Claim claim(&exclusive_);
-    const py::gil_scoped_release release;
-    try {
-      work();
-    } catch (const std::exception& error) {
-      failure_ = std::string("the estimator failed: ") + error.what();
-    }
+  const Exclusive::Claim claim(&exclusive_);
+  const py::gil_scoped_release release;
+  try {
+    work();
+  } catch (const std::exception& error) {
+    failure_ = std::string("the estimator failed: ") + error.what();
   }
+}
+
+void OdometrySession::Rethrow() {
   if (thrown_by_callback_) std::rethrow_exception(std::exchange(thrown_by_callback_, nullptr));
   if (!failure_.empty()) throw EstimatorError(failure_);
 }
@@ -92,12 +93,16 @@ void OdometrySession::Add(const LidarScan& scan) {
   RequireExtrinsicOf(scan.lidar_id);
   newest_lidar_ = std::max(newest_lidar_, scan.lidar_id);
   Compute([&] { odometry_.AddScan(scan); });
+  Rethrow();
 }
 
 void OdometrySession::Finish() {
   RequireOpen();
   Compute([&] { odometry_.Finish(); });
   is_finished_ = true;
+  // They may hold what holds this object, which would keep both for ever.
+  request_.on_window = request_.on_pose = py::none();
+  Rethrow();
   const trajlo::PointCounts counts = odometry_.point_counts();
   if (!odometry_.trajectory().empty() && counts.Kept() > 0) return;
   throw DataError("none of the " + std::to_string(counts.received) +

@@ -51,11 +51,13 @@ class OdometrySession {
   void RequireExtrinsicOf(int lidar) const;
   template <typename Work>
   void Compute(const Work& work);
+  /// What went wrong in Compute().
+  void Rethrow();
   template <typename Callback>
   void Call(const Callback& callback);
 
   const RunConfig config_;
-  const SessionRequest request_;
+  SessionRequest request_;
   Exclusive exclusive_;
   std::vector<WindowStatistics> windows_;
   std::vector<Matrix6d> covariances_;
