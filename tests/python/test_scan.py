@@ -141,7 +141,7 @@ class ScanTest(unittest.TestCase):
             made += 1
             self.assertEqual(scan.times_s.shape, (len(scan),))
             odometry.add(scan)
-        self.assertGreater(made, 300)
+        self.assertGreater(made, 100)
 
     def test_stamps_are_whole_nanoseconds(self):
         for stamp in (1.5, "now", None, 2**70):
