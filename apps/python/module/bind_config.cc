@@ -50,7 +50,9 @@ void BindConfig(py::module_* module) {
           },
           py::arg("yaml"), py::arg("name"), "Sets what a text says; messages begin with the name.")
       .def("check", &CheckConfig, "Raises ConfigError if options contradict each other.")
-      .def("dump", &DumpConfig, "All options as YAML, with their meaning.");
+      .def(
+          "dump", [](const RunConfig& config) { return DumpConfig(config); },
+          "All options as YAML, with their meaning.");
   module->def("keys", &KeysWithMeaning, "Every option: {key: {allowed, default, doc}}.");
   module->def(
       "input_paths",
