@@ -129,9 +129,8 @@ std::string Trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
 }
 
-}  // namespace
-
-void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config) {
+void LoadYaml(const std::string& yaml, const std::string& name, bool with_places,
+              RunConfig* config) {
   std::vector<YAML::Node> documents;
   try {
     documents = YAML::LoadAll(yaml);
@@ -143,7 +142,7 @@ void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig*
   if (documents.empty()) return;
   // Work on a copy: a file with an error changes nothing.
   RunConfig loaded = *config;
-  Loader loader(name, true, &loaded);
+  Loader loader(name, with_places, &loaded);
   const YAML::Node& root = documents.front();
   if (documents.size() > 1) {
     loader.Fail(documents[1], "a second YAML document begins here; a file holds one");
@@ -154,6 +153,16 @@ void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig*
   }
   loader.Walk("", root);
   *config = loaded;
+}
+
+}  // namespace
+
+void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config) {
+  LoadYaml(yaml, name, true, config);
+}
+
+void LoadConfigValues(const std::string& yaml, const std::string& name, RunConfig* config) {
+  LoadYaml(yaml, name, false, config);
 }
 
 void LoadConfigFile(const std::filesystem::path& path, RunConfig* config) {
