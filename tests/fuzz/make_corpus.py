@@ -2,10 +2,14 @@
 # SPDX-License-Identifier: MIT
 """Writes the first inputs of the fuzz targets that no fixture of another test can serve.
 
-usage: make_corpus.py        (needs only Python; writes beside itself, into corpus/)
+usage: make_corpus.py        (writes beside itself, into corpus/)
 """
 import struct
+import sys
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "scripts"))
+import bag_writer  # noqa: E402
 
 CORPUS = Path(__file__).parent / "corpus"
 PACKETS = Path(__file__).parents[1] / "core/io/packets/fixtures"
@@ -95,6 +99,14 @@ def messages():
             write("pose_message", f"{kind}_{encoding}", bytes([2 * i + cdr]) + pose(cdr, kind))
 
 
+def bags():
+    cloud = "sensor_msgs/PointCloud2"
+    for name, second in (("two_clouds", point_cloud2(False, "d")), ("found_empty_message", b"")):
+        bag_writer.write_bag(CORPUS / "ros1_bag" / name,
+                             [("/points", cloud, 1_600_000_000_200_000_000, point_cloud2(False)),
+                              ("/points2", cloud, 1_600_000_000_100_000_000, second)])
+
+
 def udp_payloads(capture):
     """Of a capture of Ethernet frames with IPv4, microseconds, low byte first."""
     at = 24
@@ -134,17 +146,19 @@ def texts():
 
 
 def scans():
-    # Options are the first bytes, a scan about six; zeros are scans without faults.
+    # Options are the first bytes, a scan six at least; zeros are scans without faults.
     write("segmenter", "plain", bytes(3 + 6 * 30))
-    write("odometry", "plain", bytes(12 + 6 * 12))
+    write("odometry", "plain", bytes(13 + 6 * 12))
     turns = b"".join(bytes([i % 16 + 16 * (i % 3), 0, 10, i % 11, 3, 0, 0, 0]) for i in range(24))
     write("segmenter", "every_fault", bytes(3) + turns)
-    write("odometry", "every_fault", bytes(12) + turns)
-    write("odometry", "every_option", bytes([1] * 12) + bytes([0, 0, 10, 0, 0, 0]) * 12)
+    write("odometry", "every_fault", bytes(13) + turns)
+    write("odometry", "every_fault_four_threads", bytes([1] + [0] * 12) + turns)
+    write("odometry", "every_option", bytes([1] * 13) + bytes([0, 0, 10, 0, 0, 0]) * 12)
 
 
 if __name__ == "__main__":
     messages()
+    bags()
     packets()
     texts()
     scans()

@@ -16,7 +16,7 @@ constexpr double kFar_m = 1e4;
 
 OdometryOptions RandomOptions(fuzz::ByteSource* bytes) {
   OdometryOptions options;
-  options.threads = 1;
+  options.threads = bytes->OneOf({1, 4});
   options.segmenter.interval_s = bytes->OneOf({0.05, 0.03, 0.1});
   options.window.segments = bytes->OneOf({4, 1, 2, 7});
   options.window.deskewing = bytes->OneOf({Deskewing::kEstimated, Deskewing::kPredicted});

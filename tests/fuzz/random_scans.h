@@ -53,7 +53,7 @@ class RandomScans {
   /// The room, from where the sensor is.
   void Measure(LidarScan* scan) {
     using Room = testing::RoomRecording;
-    const int columns = bytes_.OneOf({30, 60, 15, 4, 1, 0});
+    const int columns = bytes_.OneOf({15, 30, 60, 4, 1, 0});
     const double speed_m_per_s = 0.1 * static_cast<std::int8_t>(bytes_.Byte());
     x_m_ = std::fmod(x_m_ + 0.1 * speed_m_per_s, 5.0);
     const Eigen::Vector3d origin(x_m_, 0.0, 0.0);
