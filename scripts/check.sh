@@ -17,7 +17,7 @@ warn_folders=(manifolds factors core apps tests)
 tidy_folders=("${warn_folders[@]}")
 case "${1:-}" in
   -h | --help)
-    sed -n '3,11p' "scripts/check.sh" | sed 's/^# \{0,1\}//'
+    sed -n '3,10p' scripts/check.sh | sed 's/^# \{0,1\}//'
     exit 0
     ;;
   --fast)

@@ -4,12 +4,12 @@
 #   scripts/fuzz.sh                        all targets of tests/fuzz, a minute each
 #   scripts/fuzz.sh pcd mcap --minutes 10  those two, ten minutes of a core's time each
 #   scripts/fuzz.sh --list                 their names
-# What is found is kept in build-fuzz/findings/TARGET; the exit code is 1 then. The growing corpus is
-# kept in build-fuzz/corpus/TARGET, and the next call goes on from there.
-# TRAJLO_BUILD_DIR names another build folder.
+# What is found is kept in build-asan/findings/TARGET; the exit code is 1 then. The growing corpus is
+# kept in build-asan/corpus/TARGET, and the next call goes on from there.
+# It shares its build with scripts/sanitize.sh asan. TRAJLO_BUILD_DIR names another build folder.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-build="${TRAJLO_BUILD_DIR:-$root/build-fuzz}"
+build="${TRAJLO_BUILD_DIR:-$root/build-asan}"
 
 minutes=1
 targets=()
@@ -48,13 +48,14 @@ command -v clang++ >/dev/null || {
   echo "fuzz.sh: clang++ was not found (apt install clang libclang-rt-14-dev)" >&2
   exit 1
 }
-cmake -S "$root" --preset fuzz -B "$build" >/dev/null
+cmake -S "$root" --preset asan -B "$build" >/dev/null
 cmake --build "$build" --parallel "${TRAJLO_JOBS:-$(nproc)}" --target "${targets[@]/#/fuzz_}"
 
 # Files that are written anew for each input do not need a disk.
 [[ -w /dev/shm ]] && export TMPDIR="${TMPDIR:-/dev/shm}"
-# A program that reads broken files must not believe the sizes in them.
-limits=(-rss_limit_mb=2048 -malloc_limit_mb=1024 -timeout=20)
+# A program that reads broken files must not believe the sizes in them. The seconds are those of a
+# clock: a busy machine must not look like an endless loop.
+limits=(-rss_limit_mb=2048 -malloc_limit_mb=1024 -timeout=120)
 
 # seed TARGET: the inputs of the tests begin the corpus; those of one name keep their folder's.
 seed() {

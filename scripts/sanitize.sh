@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Builds with sanitizers and runs the tests and five short runs.
-#   scripts/sanitize.sh asan           addresses and undefined behaviour, in build-asan
+#   scripts/sanitize.sh asan           addresses and undefined behaviour (clang), in build-asan
 #   scripts/sanitize.sh tsan           threads, in build-tsan, with a oneTBB built for it
 #   scripts/sanitize.sh asan --slice   few parts only: see below
 #   scripts/sanitize.sh tsan --slice
 # The five runs: a folder, a bag, two LiDARs, motion-corrected scans (KITTI), a bag that is cut.
 # The slice is what continuous integration has time for: the whole method, on the random scans of the
-# fuzz targets (tests/fuzz/corpus), with one thread and with four.
+# fuzz targets (tests/fuzz/corpus), with one thread and with four; of asan also what reads points and
+# trajectories.
 # A report of a sanitizer ends the program with a code that none of its own exits has.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 jobs="${TRAJLO_JOBS:-$(nproc)}"
 
-usage() { sed -n '3,11p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; }
+usage() { sed -n '3,12p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; }
 kind="${1:-}"
 slice="${2:-}"
 case "$kind" in
@@ -59,9 +60,11 @@ build_targets() {
 }
 
 run_slice() {
-  build_targets --target fuzz_odometry fuzz_segmenter
+  local names=(odometry segmenter)
+  [[ "$kind" == tsan ]] || names+=(pcd ply bin trajectory stamps)
+  build_targets --target "${names[@]/#/fuzz_}"
   ctest --test-dir "$build" --parallel "$jobs" --timeout 900 --output-on-failure \
-    --no-tests=error -R '^fuzz\.(odometry|segmenter)$'
+    --no-tests=error -R "^fuzz\.($(IFS='|' && echo "${names[*]}"))\$"
 }
 
 # expect CODE NAME ARGUMENTS...: one trajlo_run.

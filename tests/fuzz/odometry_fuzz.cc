@@ -58,7 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   odometry.OnWindow([](const WindowStatistics& window) {
     fuzz::Require(window.end_ns > window.begin_ns, "a window has a length");
     fuzz::Require(window.inliers <= window.points, "inliers are points");
-    fuzz::Require(std::isfinite(window.kernel_m), "the kernel is a number");
+    fuzz::Require(std::isfinite(window.smallest_eigenvalue), "how points hold it is a number");
   });
   std::int64_t points = 0;
   for (int i = 0; i < kMaxScans && !bytes.empty(); ++i) {
