@@ -25,7 +25,7 @@ case "${1:-}" in
     tidy_folders=()
     ;;
   --slice)
-    warn_folders=(manifolds factors core/odometry tests/manifolds tests/factors)
+    warn_folders=(manifolds factors core/odometry)
     tidy_folders=(factors)
     ;;
   -*)
