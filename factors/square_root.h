@@ -34,7 +34,7 @@ SquareRoot<N> MakePivotedSquareRoot(const Eigen::Matrix<double, N, N>& H,
       inverse_root[i] = 1.0 / root[i];
     }
   }
-  const auto P = ldlt.transpositionsP();
+  const auto& P = ldlt.transpositionsP();
   SquareRoot<N> result;
   Eigen::Matrix<double, N, N> permutation = Eigen::Matrix<double, N, N>::Identity(n, n);
   permutation = P * permutation;

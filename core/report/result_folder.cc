@@ -16,7 +16,8 @@ void ResultFolder::Check(bool overwrite) const {
     throw OutputError(path_, "exists already and is not a folder; choose another --output");
   }
   if (overwrite) return;
-  for (const fs::path& file : {summary(), trajectory(), map(), view(), windows(), covariance(), config()}) {
+  for (const fs::path& file :
+       {summary(), trajectory(), map(), view(), windows(), covariance(), config()}) {
     if (fs::exists(fs::symlink_status(file, error))) {
       throw OutputError(path_, "holds an earlier result (" + file.filename().string() +
                                    "); choose another --output, or add --overwrite to replace it");
@@ -29,7 +30,8 @@ void ResultFolder::Prepare() const {
   fs::create_directories(path_, error);
   if (error) throw OutputError(path_, "the folder cannot be made: " + error.message());
   // Links are left alone: somebody wants the file elsewhere, and writing follows them.
-  for (const fs::path& file : {summary(), trajectory(), map(), view(), windows(), covariance(), config()}) {
+  for (const fs::path& file :
+       {summary(), trajectory(), map(), view(), windows(), covariance(), config()}) {
     if (!fs::is_regular_file(fs::symlink_status(file, error))) continue;
     fs::remove(file, error);
     if (error) throw OutputError(file, "the earlier result cannot be removed: " + error.message());

@@ -227,7 +227,6 @@ def evaluate(job_file):
 def draw(status_file):
     """The page of a run."""
     folder = pathlib.Path(status_file).resolve().parent
-    status = read_json_if(status_file)
     (folder / "result").mkdir(exist_ok=True)
     command = [sys.executable, ROOT / "scripts" / "draw_run.py", folder / "result",
                "--output", folder / "page",
