@@ -42,6 +42,10 @@ if(TRAJLO_BUILD_SIMULATION)
   list(APPEND commands trajlo_simulate)
 endif()
 install(TARGETS ${commands} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+foreach(command ${commands})
+  install(FILES ${PROJECT_SOURCE_DIR}/scripts/completion.bash RENAME ${command}
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT programs)
+endforeach()
 set(share_dir ${CMAKE_INSTALL_DATADIR}/trajlo)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config DESTINATION ${share_dir} COMPONENT programs)
 # The Python commands: scripts/draw_run.py is trajlo_draw_run. What installs, builds and tests a source

@@ -51,7 +51,11 @@ error_m="$(python3 -c 'import json
 print(json.load(open("evaluation/evaluation.json"))["estimates"][0]["ate"]["translation_m"]["rmse"])')"
 python3 -c "import sys; sys.exit(not 0 < $error_m < 0.1)" || fail "an error of $error_m m"
 
-# Suites are found by the names that their READMEs use, and their runs use the installed programs.
+completion="$root/usr/share/bash-completion/completions/trajlo_info"
+"${user[@]}" bash -c "source '$completion' && complete -p trajlo_info" >/dev/null ||
+  fail "bash cannot complete trajlo_info"
+
+# Batches find their suite and the installed programs.
 suite="$root/usr/share/trajlo/config/suites/simulation.yaml"
 "${user[@]}" trajlo_batch "$suite" --list >list.txt || fail "trajlo_batch: $(tail -n 5 list.txt)"
 grep -q "hall_os1_16" list.txt || fail "trajlo_batch lists no run"
