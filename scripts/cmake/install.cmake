@@ -20,14 +20,9 @@ install(FILES ${PROJECT_BINARY_DIR}/trajlo-config.cmake
               ${PROJECT_BINARY_DIR}/trajlo-config-version.cmake
         DESTINATION ${package_dir} COMPONENT development)
 
-set(folders manifolds factors core/odometry)
-if(NOT TRAJLO_ONLY_ODOMETRY)
-  list(APPEND folders core/io core/config core/report core/evaluation core/comparison)
-endif()
-if(TRAJLO_BUILD_SIMULATION)
-  list(APPEND folders core/simulation)
-endif()
-foreach(folder ${folders})
+set(folders ${TRAJLO_CORE_FOLDERS})
+list(TRANSFORM folders PREPEND core/)
+foreach(folder manifolds factors ${folders})
   get_filename_component(above ${folder} DIRECTORY)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder}
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trajlo/${above} COMPONENT development
