@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// A measured point with the plane of the map that it was associated with.

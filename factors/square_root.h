@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// N is a size or Eigen::Dynamic. A quadratic ½ xᵀH x + gᵀx written as ½ |S x + s|² - ½ |s|²: SᵀS =

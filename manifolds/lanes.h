@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "manifolds/eigen_abi.h"
+
 /// The few operations of 3-vectors that moving and registering points needs, for one double or for
 /// four points at a time. (Eigen's own vectorisation is off in this project; see CMakeLists.txt.)
 namespace trajlo::lanes {
