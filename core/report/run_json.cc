@@ -44,7 +44,7 @@ Json InputJson(const RunSummary& s) {
           {"points",
            {{"received", s.points.received},
             {"kept", s.points.Kept()},
-            {"not_finite", s.points.not_finite},
+            {"not_finite", s.NotFinite()},
             {"too_near", s.points.too_near},
             {"too_far", s.points.too_far},
             {"too_late", s.points.too_late},

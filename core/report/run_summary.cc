@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/run_summary.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trajlo {
+
+std::int64_t RunSummary::NotFinite() const {
+  const auto without_time = static_cast<std::int64_t>(read.points_without_time);
+  // Fewer where whole scans of them were dropped.
+  return std::max<std::int64_t>(points.not_finite - without_time, 0);
+}
 
 double RunSummary::ShareWithWrongTimes() const {
   if (points.received == 0) return 0.0;

@@ -51,6 +51,9 @@ struct RunSummary {
   double p95_ms = 0.0;
   double peak_memory_mb = 0.0;
 
+  /// Points that are not finite in the recording. Those without a possible time come as such
+  /// points, too, and are counted by ReadReport.
+  std::int64_t NotFinite() const;
   /// The share of the points that were dropped because of their times.
   double ShareWithWrongTimes() const;
   /// What became of scans with odd stamps, and of how many: "3 put in order, 1 dropped (...)";

@@ -26,6 +26,7 @@ def wrong_stamp(recording, rng):
 def zero_stamps(recording, rng):
     """A clock that is set only after some scans."""
     count = int(rng.integers(1, 6))
+    recording.clocks_ns.append(recording.clocks_ns[0] - recording.stamp(0))
     for index in range(count):
         recording.set_stamp(index, index * PERIOD_NS if rng.random() < 0.5 else 0)
     return f"the first {count} stamps near 0"

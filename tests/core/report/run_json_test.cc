@@ -46,6 +46,16 @@ RunSummary ExampleSummary() {
   return s;
 }
 
+TEST(RunSummary, APointIsDroppedForOneReason) {
+  RunSummary s = ExampleSummary();
+  s.read.points_without_time = 4;  // the segmenter sees them as points that are not finite
+  const auto points = nlohmann::json::parse(RunJson(s))["input"]["points"];
+  EXPECT_EQ(points["not_finite"], 6);
+  EXPECT_EQ(points["without_time"], 4);
+  EXPECT_THAT(SummaryTable(s), HasSubstr("6 not finite"));
+  EXPECT_THAT(SummaryTable(s), HasSubstr("4 without a possible time"));
+}
+
 TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   RunSummary s;
   EXPECT_EQ(s.MissingInput(), "");
