@@ -39,6 +39,7 @@ Json InputJson(const RunSummary& s) {
             {"time_assumed", s.times.assumed},
             {"stamp_fits_nowhere", s.times.misfits},
             {"stamp_repeated", s.times.repeated},
+            {"points_repeated", s.times.stuck},
             {"clock_apart", s.times.apart}}},
           {"clock_steps", s.times.clock_steps},
           {"points",
