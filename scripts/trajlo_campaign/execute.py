@@ -22,8 +22,8 @@ class Ended:
 
 def execute(command, log_file, cpu_s=CPU_S, wall_s=WALL_S):
     """Runs a command, which dies with this process."""
-    limits = ["prlimit", f"--cpu={cpu_s}:{cpu_s + 5}", f"--as={MEMORY_BYTES}", f"--fsize={FILE_BYTES}",
-              "--core=0", "setpriv", "--pdeathsig", "KILL"]
+    limits = ["prlimit", f"--cpu={cpu_s}:{cpu_s + 5}", f"--as={MEMORY_BYTES}",
+              f"--fsize={FILE_BYTES}", "--core=0", "setpriv", "--pdeathsig", "KILL"]
     waited_too_long = threading.Event()
     with log_file.open("w") as log:
         process = subprocess.Popen([*limits, *map(str, command)], stdout=log,

@@ -82,6 +82,15 @@ def empty_scans(folder, rng):
     return listed("no points", indices)
 
 
+def frozen(folder, rng):
+    """The driver sends the same scan again and again, with new stamps."""
+    scans = stretch(folder, rng, 20)
+    data = folder.read(scans[0])
+    for index in scans[1:]:
+        folder.write(index, data)
+    return f"the points of scan {scans[0]} until {scans[-1]}"
+
+
 def swapped_files(folder, rng):
     """Neighbours have each other's points."""
     indices = [index for index in some(folder, rng) if index + 1 < len(folder)]
@@ -139,7 +148,7 @@ def unknown_time_field(folder, _):
 
 
 FOLDER_FAULTS = (missing_files, missing_scans, missing_scans, empty_files, cut_files,
-                 flipped_bytes, flipped_headers, empty_scans, swapped_files, renamed_files,
+                 flipped_bytes, flipped_headers, empty_scans, frozen, swapped_files, renamed_files,
                  stray_files, lines_lost, lines_garbled, no_stamps, unknown_time_field)
 
 

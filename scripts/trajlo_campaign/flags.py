@@ -3,6 +3,7 @@
 import csv
 import decimal
 import pathlib
+import re
 
 import numpy as np
 
@@ -13,7 +14,7 @@ FILES = (("flags.csv", "time_s"), ("windows.csv", "end_s"))
 
 
 def distrusted(names):
-    return any(name not in NO_DISTRUST for name in names.replace("|", " ").replace(";", " ").split())
+    return any(name not in NO_DISTRUST for name in re.split("[|; ]", names))
 
 
 def flagged_times_ns(result):

@@ -20,7 +20,7 @@ VERDICTS = {
     PARTIAL: "exit 3: a part of the input is damaged or left out",
     LOST: "exit 4: lost, and says so",
     REFUSED: "exit 1, 2 or 5: no result, and a message",
-    CARRIED: "exit 0; the error grew where there are flags, poses behind it carry it on without one",
+    CARRIED: "exit 0; the error began at a pose with a flag, poses behind it have none",
     SILENT: "exit 0, and wrong poses without a flag, or poses are missing",
     UNBOUNDED: "a pose that is not finite, or far beyond where the sensor could be",
     HANG: "too long",

@@ -117,8 +117,6 @@ def mcap_messages(data):
 class MessageFile(Recording):
     """The scans on one topic of a bag or mcap without compression. Scans keep their length."""
 
-    can_change_length = False
-
     def __init__(self, path, data, messages, view, clock_ns):
         super().__init__(clock_ns)
         self.path, self.data, self.messages, self.view = path, data, messages, view

@@ -134,19 +134,6 @@ def shuffled_points(recording, rng):
     return said("points shuffled", scans)
 
 
-def frozen(recording, rng):
-    """The driver sends the same points again and again, with new stamps."""
-    scans = stretch(recording, rng, 20)
-    points = recording.points(scans[0])
-    if points is not None:
-        for index in scans[1:]:
-            old = recording.points(index)
-            if old is not None:
-                same = points if recording.can_change_length else np.resize(points, len(old))
-                recording.set_points(index, same)
-    return said("the same points", scans)
-
-
 def late_points(recording, rng):
     """Points carry times of the scan before."""
     scans = stretch(recording, rng, 20)
@@ -163,4 +150,4 @@ def late_points(recording, rng):
 
 
 FAULTS = (covered, half_covered, nothing_seen, few_points, outliers, wild_values, equal_times,
-          wrong_times, shuffled_points, frozen, late_points)
+          wrong_times, shuffled_points, late_points)

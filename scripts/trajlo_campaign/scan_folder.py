@@ -16,8 +16,6 @@ def seconds(stamp_ns):
 class ScanFolder(Recording):
     """The scans of one LiDAR. Files that are shared with other copies are replaced, not changed."""
 
-    can_change_length = True
-
     def __init__(self, folder, clock_ns=0):
         super().__init__(clock_ns)
         folder = pathlib.Path(folder)

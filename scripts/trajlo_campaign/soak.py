@@ -42,19 +42,19 @@ def memory_growth(samples):
     progress = samples[:, 1] / samples[-1, 1]
     earlier = samples[(progress >= 0.25) & (progress < 0.5), 2]
     later = samples[progress >= 0.75, 2]
-    return float(np.median(later) / np.median(earlier) - 1.0) if len(earlier) and len(later) else 0.0
+    return float(np.median(later) / np.median(earlier) - 1.0)
 
 
 def counted(summary):
     """What run.json counts, by the names that the faults use."""
     scans, points = summary["input"]["scans"], summary["input"]["points"]
-    flags = summary["windows"]["flagged"]
     return {"damaged": scans["damaged"] + scans["skipped"], "reordered": scans["reordered"],
             "stamp_repeated": scans["stamp_repeated"],
             "stamps_mended": scans["retimed"] + scans["stamp_fits_nowhere"],
             "clock_steps": summary["input"]["clock_steps"],
-            **{name: points[name] for name in ("not_finite", "too_near", "too_far", "wrong_time")},
-            "windows_without_points": flags["no_points"] + flags["gap"]}
+            "points_repeated": scans["points_repeated"],
+            **{name: points[name] for name in ("not_finite", "too_near", "too_far", "wrong_time",
+                                               "without_time")}}
 
 
 def read_sparsely(path, every):

@@ -73,7 +73,7 @@ def far_points(injector, index):
 def wrong_point_times(injector, index):
     def change(points, rows):
         points["time"][rows] = 77.0
-    injector.spoil_points(index, "wrong_time", change)
+    injector.spoil_points(index, "without_time", change)
 
 
 def covered(injector, index):
@@ -112,6 +112,7 @@ def scan_twice(injector, index):
     injector.folder.write(index + 1, injector.folder.read(index))
     injector.folder.lines[index + 1] = injector.folder.lines[index]
     injector.expected["stamp_repeated"] += 1
+    injector.expected["wrong_time"] += len(injector.folder.points(index))
 
 
 def pause(injector, index):
@@ -137,5 +138,14 @@ def jitter(injector, index):
         injector.folder.shift([one], int(injector.rng.normal(0.0, 1.5e6)))
 
 
+def stuck(injector, index):
+    """The same points twice, with new stamps."""
+    data = injector.folder.read(index)
+    for one in (index + 1, index + 2):
+        injector.folder.write(one, data)
+        injector.expected["points_repeated"] += 1
+        injector.expected["wrong_time"] += len(injector.folder.points(index))
+
+
 KINDS = (cut_file, zero_length, nan_points, near_points, far_points, wrong_point_times, covered,
-         wrong_stamp, repeated_stamp, swapped_scans, scan_twice, pause, clock_step, jitter)
+         wrong_stamp, repeated_stamp, swapped_scans, scan_twice, pause, clock_step, stuck, jitter)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Runs of a fault campaign follow from seed and number; faults do what they say; verdicts are right."""
+"""Runs of a fault campaign follow from seed and number, faults do what they say, verdicts are
+right."""
 import json
 import pathlib
 import struct
@@ -58,8 +59,9 @@ class RecordingTest(FolderTest):
 
     def make_bag(self):
         path = self.folder / "recording.bag"
-        write_bag(path, [("/points", "sensor_msgs/PointCloud2", START_NS + (index + 1) * 100_000_000,
-                          point_cloud2(index)) for index in range(SCANS)])
+        write_bag(path, [("/points", "sensor_msgs/PointCloud2",
+                          START_NS + (index + 1) * 100_000_000, point_cloud2(index))
+                         for index in range(SCANS)])
         return path
 
 
@@ -218,7 +220,8 @@ class VerdictTest(FolderTest):
             f"{k},{scan_folder.seconds(t_ns + clock_ns)},"
             f"{flag if flagged and flagged[0] <= s <= flagged[1] else ''}\n"
             for k, (t_ns, s) in enumerate(zip(times, offsets))))
-        self.write("result/run.json", json.dumps({"exit": {"code": code if said is None else said}}))
+        summary = {"exit": {"code": code if said is None else said}}
+        self.write("result/run.json", json.dumps(summary))
         return judge.judge(execute.Ended(code, 1.0, 50.0), self.folder / "result", log, self.truth,
                            self.prepared)
 
