@@ -10,7 +10,7 @@ import numpy as np
 # Rounds that ran out say nothing of whether a pose is right: healthy runs have such windows.
 NO_DISTRUST = {"", "not_converged"}
 # The companion of the trajectory comes first: it has a line for each pose.
-FILES = (("flags.csv", "time_s"), ("windows.csv", "end_s"))
+FILES = (("flags.csv", "t_s"), ("windows.csv", "end_s"))
 
 
 def distrusted(names):

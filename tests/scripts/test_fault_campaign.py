@@ -297,7 +297,7 @@ class VerdictTest(FolderTest):
 
     def test_flags_of_poses_come_before_those_of_windows(self):
         self.verdict(flagged=(4.0, 6.0))
-        self.write("result/flags.csv", f"time_s,flag_names\n{scan_folder.seconds(START_NS)},lost\n")
+        self.write("result/flags.csv", f"t_s,flag_names\n{scan_folder.seconds(START_NS)},lost\n")
         self.assertEqual(list(flags.flagged_times_ns(self.folder / "result")), [START_NS])
 
 
