@@ -43,6 +43,21 @@ class CampaignRunTest(BuiltTest):
                     self.assertEqual(row["verdict"], judge.WELL, row["reason"])
                     self.assertGreater(row["covered"], 0.97)
 
+    def test_a_bag_that_is_cut_gives_what_is_before_the_cut_and_three(self):
+        bases = campaign.Bases(self.programs, self.folder / "bases")
+        bag = bases.get(scenes.SCENES[2], "bag") / "recording.bag"
+        os.truncate(bag, bag.stat().st_size * 6 // 10)
+        result = self.folder / "result"
+        done = subprocess.run([self.programs.run, f"--input={bag}", f"--output={result}"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertRegex(done.stderr, r"recording\.bag.* bytes are lost")
+        exit_code = json.loads((result / "run.json").read_text())["exit"]
+        self.assertEqual(exit_code["code"], 3)
+        self.assertIn("missing or broken", exit_code["message"])
+        poses = (result / "trajectory.tum").read_text().splitlines()
+        self.assertGreater(float(poses[-1].split()[0]) - float(poses[0].split()[0]), 3.4)
+
     def test_random_faults_neither_crash_nor_hang_nor_pass_in_silence(self):
         done = self.script("fault_campaign", "--runs", str(RUNS))
         rows = self.rows()
