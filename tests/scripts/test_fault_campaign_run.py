@@ -13,8 +13,8 @@ from trajlo_campaign import campaign, judge, scenes
 from trajlo_campaign.draw import Drawn
 
 RUNS = 24
-# Each is a defect of the odometry that is known; none of them is new.
-MOST_WRONG_IN_SILENCE = 2
+# Of so many runs; each is a defect that scripts/fault_campaign shows.
+MOST_WRONG_IN_SILENCE = 4
 
 
 class BuiltTest(FolderTest):
