@@ -37,9 +37,7 @@ def add_work_arguments(parser, run_name):
     parser.add_argument("--data", type=pathlib.Path,
                         default=os.environ.get("TRAJLO_DATASETS", WORK / "data"),
                         help="the folder of data sets; default: $TRAJLO_DATASETS, else data/")
-    parser.add_argument("--build", type=pathlib.Path,
-                        default=os.environ.get("TRAJLO_BUILD_DIR", BUILD),
-                        help="the build to run; default: $TRAJLO_BUILD_DIR, else build/")
+    add_build_argument(parser)
     parser.add_argument("--list", action="store_true", help="show the runs and stop")
     parser.add_argument("--command", metavar=run_name.upper(),
                         help="print how to repeat a run and stop")
@@ -51,6 +49,12 @@ def add_work_arguments(parser, run_name):
                         help="delete each simulated recording as soon as its runs are done")
     parser.add_argument("--slurm", action="store_true", help="submit the jobs with sbatch")
     parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for it")
+
+
+def add_build_argument(parser):
+    parser.add_argument("--build", type=pathlib.Path,
+                        default=os.environ.get("TRAJLO_BUILD_DIR", BUILD),
+                        help="the build to run; default: $TRAJLO_BUILD_DIR, else build/")
 
 
 def places_of(arguments, name):
