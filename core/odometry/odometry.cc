@@ -100,7 +100,7 @@ void Odometry::Step(SegmentCloud cloud) {
   } else {
     Revert(predicted, &window_);
   }
-  Judge(window_, options_.lost, &statistics);
+  Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
   window_.segments.back().flags = statistics.flags;
   Describe(window_, &statistics);
   if (window_.size() >= options_.window.segments) Leave(&statistics);
