@@ -33,7 +33,7 @@ def draw_figures(run, folder, config):
     figures = [{"path": theme.save(figures_map.draw_views(run, ceiling), folder / "map",
                                    ("png", "svg", "pdf"), dpi=170)[0],
                 "caption": caption, "width": 1080}]
-    sigma_m = config.get("lost", {}).get("degenerate_sigma_m")
+    sigma_m = config.get("expert", {}).get("lost", {}).get("degenerate_sigma_m")
     degenerate = 1.0 / sigma_m**2 if sigma_m else None
     path = theme.save(figures_run.draw_windows(run, degenerate), folder / "windows", dpi=170)[0]
     said = "Red: flagged windows. " if run.flags else ""

@@ -173,7 +173,7 @@ void Odometry::SettleFront() {
 
 void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
   trajectory_.Append(pose);
-  if (on_pose_) on_pose_(pose, options_.covariance_scale * covariance);
+  if (on_pose_) on_pose_(pose, CalibratedCovariance(covariance, motion_prior_.surprise()));
 }
 
 void Odometry::AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end) {
