@@ -21,7 +21,8 @@ namespace trajlo {
 struct FeignedInformation {
   /// F for a rigid perturbation [rho; theta] of the body frame at the end of the segment.
   Matrix6d mean = Matrix6d::Zero();
-  /// Sums of w_i v_i and of (w_i v_i)²: by them the mean is exact to sqrt(2 / Effective()).
+  /// Sums of w_i v_i and of (w_i v_i)². With N = sum² / sum_of_squares normals that are
+  /// independent, what is really feigned differs from its mean by the share sqrt(2 / N).
   double sum = 0.0;
   double sum_of_squares = 0.0;
 };
