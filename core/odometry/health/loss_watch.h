@@ -15,7 +15,7 @@ struct LostOptions {
   double max_duration_s = 1.0;
   double max_correction_m = 3.0;
   double max_correction_rad = 1.0;
-  double degenerate_eigenvalue = 0.002;
+  double degenerate_sigma_m = 0.1;
 
   template <typename Describer>
   void Describe(Describer& d) {
@@ -28,9 +28,9 @@ struct LostOptions {
       "A solve that moves the newest pose farther than this from its prediction is not believed.");
     d(OptionFor::kExperts, "max_correction_rad", max_correction_rad, Range<double>{1e-3, 10.0},
       "The same for its rotation.");
-    d(OptionFor::kExperts, "degenerate_eigenvalue", degenerate_eigenvalue, Range<double>{0.0, 1.0},
-      "Below this information per point a direction counts as degenerate (a well-spread scene "
-      "has 0.05 to 0.2).");
+    d(OptionFor::kExperts, "degenerate_sigma_m", degenerate_sigma_m, Range<double>{1e-4, 1e3},
+      "A direction in which the points of a window hold it to a larger standard deviation counts "
+      "as degenerate (a well-spread scene has 0.01).");
   }
 };
 
