@@ -7,7 +7,13 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <initializer_list>
+#include <optional>
 
+#include "apps/completion.h"
+#include "apps/failure_text.h"
+#include "apps/interrupt.h"
+#include "apps/read_flags.h"
 #include "apps/usage_error.h"
 #include "core/config/config_error.h"
 #include "core/io/errors.h"
@@ -16,15 +22,18 @@
 namespace trajlo {
 namespace {
 
-/// Asked ahead of gflags, whose own help lists the flags of every library that is linked.
-bool WantsHelp(const std::vector<std::string>& words) {
-  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
-    return word == "--help" || word == "-help" || word == "-h";
-  });
+/// True if a word of the command line, up to `--`, is one of `wanted`.
+bool Has(const std::vector<std::string>& words, std::initializer_list<const char*> wanted) {
+  const auto end = std::find(words.begin(), words.end(), "--");
+  return std::find_first_of(words.begin(), end, wanted.begin(), wanted.end()) != end;
 }
 
-bool WantsVersion() {
-  return gflags::GetCommandLineFlagInfoOrDie("version").current_value == "true";
+/// The value of --completion=bash or --completion bash; nothing if it is not there.
+std::optional<std::string> CompletionShell(const std::vector<std::string>& words) {
+  const std::string flag = "--completion";
+  if (words.size() < 2 || words[1].compare(0, flag.size(), flag) != 0) return {};
+  if (words[1].size() > flag.size()) return words[1].substr(flag.size() + 1);
+  return words.size() > 2 ? words[2] : "";
 }
 
 void PrintVersion(const std::string& name) {
@@ -39,46 +48,63 @@ void QuietenCeres() {
   gflags::SetCommandLineOptionWithMode("logtostderr", "true", gflags::SET_FLAGS_DEFAULT);
 }
 
-ExitCode Run(const Command& command, const CommandLine& line) {
-  const auto fail = [&](ExitCode code, const std::exception& error, const std::string& hint) {
-    std::fprintf(stderr, "%s: %s\n%s", command.name.c_str(), error.what(), hint.c_str());
-    return code;
-  };
-  const std::string examples = "(" + command.name + " --help shows examples)\n";
+/// Answers what is about the command itself; false if it is to run.
+bool Answer(const Command& command, const std::vector<std::string>& words) {
+  if (words.size() == 4 && words[1] == "--complete") {
+    for (const std::string& word : Complete(command, words[2], words[3])) std::puts(word.c_str());
+  } else if (const auto shell = CompletionShell(words)) {
+    std::fputs(CompletionScript(*shell).c_str(), stdout);
+  } else if (Has(words, {"--help", "-help", "-h"})) {
+    std::fputs(command.help, stdout);
+  } else if (Has(words, {"--version", "-version"})) {
+    PrintVersion(command.name);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+ExitCode Run(const Command& command, int argc, char** argv) {
+  CommandLine line;
+  line.command = command.name;
+  line.words.assign(argv, argv + argc);
+  if (Answer(command, line.words)) return ExitCode::kOk;
+  QuietenCeres();
+  line.arguments = ReadFlags(command.name, line.words);
+  return command.run(line);
+}
+
+ExitCode Fail(const Command& command, ExitCode code, const char* what) {
+  std::fprintf(stderr, "%s: %s\n", command.name, what);
+  if (code == ExitCode::kUsage) std::fprintf(stderr, "(%s --help shows examples)\n", command.name);
+  return code;
+}
+
+/// No exception leaves it.
+ExitCode RunGuarded(const Command& command, int argc, char** argv) {
   try {
-    return command.run(line);
+    return Run(command, argc, argv);
   } catch (const UsageError& error) {
-    return fail(ExitCode::kUsage, error, examples);
+    return Fail(command, ExitCode::kUsage, error.what());
   } catch (const ConfigError& error) {
-    return fail(ExitCode::kUsage, error, examples);
+    return Fail(command, ExitCode::kUsage, error.what());
   } catch (const InputError& error) {
-    return fail(ExitCode::kInputUnreadable, error, "");
+    return Fail(command, ExitCode::kInputUnreadable, error.what());
   } catch (const OutputError& error) {
-    return fail(ExitCode::kOutputNotWritable, error, "");
+    return Fail(command, ExitCode::kOutputNotWritable, error.what());
+  } catch (const std::exception& error) {
+    return Fail(command, ExitCode::kFailed, FailureText(error).c_str());
   }
 }
 
 }  // namespace
 
 int RunCommand(const Command& command, int argc, char** argv) {
-  CommandLine line;
-  line.words.assign(argv, argv + argc);
-  if (WantsHelp(line.words)) {
-    std::fputs(command.help.c_str(), stdout);
-    return static_cast<int>(ExitCode::kOk);
-  }
-  QuietenCeres();
-  gflags::ParseCommandLineNonHelpFlags(&argc, &argv, true);
-  if (WantsVersion()) {
-    PrintVersion(command.name);
-    return static_cast<int>(ExitCode::kOk);
-  }
-  gflags::HandleCommandLineHelpFlags();
-  line.arguments.assign(argv + 1, argv + argc);
+  if (command.ends_gracefully) HandleInterrupts();
   // A closed pipe and a limit on file sizes are then errors of the write, like a full disk.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  return static_cast<int>(Run(command, line));
+  return static_cast<int>(RunGuarded(command, argc, argv));
 }
 
 void RequireNoArguments(const CommandLine& line) {

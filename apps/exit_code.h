@@ -11,6 +11,7 @@ enum class ExitCode {
   kPartialInput = 3,     ///< The result rests on a part of the input.
   kLost = 4,             ///< The estimator got lost; the result until then is written and flagged.
   kOutputNotWritable = 5,  ///< Disk full, no permission, or an earlier result would be replaced.
+  kFailed = 6,             ///< Out of memory or threads, or a defect of the program.
   kInterrupted = 130,      ///< By a signal; the result until then is written.
 };
 

@@ -11,9 +11,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not 
 
 void OnSignal(int) { interrupted = true; }
 
-}  // namespace
-
-const std::atomic<bool>& HandleInterrupts() {
+void SetHandlers() {
   struct sigaction action {};
   action.sa_handler = OnSignal;
   // Once: the next signal finds the default again. Restart: reads and writes are not cut short.
@@ -24,6 +22,13 @@ const std::atomic<bool>& HandleInterrupts() {
   struct sigaction hangup {};
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup wins.
+}
+
+}  // namespace
+
+const std::atomic<bool>& HandleInterrupts() {
+  static const bool once = (SetHandlers(), true);
+  static_cast<void>(once);
   return interrupted;
 }
 

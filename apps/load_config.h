@@ -7,7 +7,7 @@
 
 namespace trajlo {
 
-/// The defaults, changed by the files of --config in their order, then by --set. CheckConfig() is
+/// The defaults, changed by --config (see FindConfig) in its order, then by --set. CheckConfig() is
 /// left to the caller, whose other flags may change more. Throws ConfigError.
 RunConfig LoadConfig(const std::string& files, const std::string& settings);
 

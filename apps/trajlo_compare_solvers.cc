@@ -2,27 +2,29 @@
 // The same windows, and the same recording, by many solvers. See --help.
 #include <gflags/gflags.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "apps/command.h"
 #include "apps/compare/compare_job.h"
+#include "apps/config_names.h"
+#include "apps/inputs.h"
 #include "apps/load_config.h"
 #include "apps/require_extrinsics.h"
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
-#include "core/io/recording/open_recording.h"
 
 DEFINE_string(input, "", "the recording, as for trajlo_run");
 DEFINE_string(output, "", "the folder to write");
-DEFINE_string(config, "", "YAML files, separated by commas; later ones override earlier ones");
+DEFINE_string(config, "", "names or YAML files, separated by commas; later ones win");
 DEFINE_string(set, "", "options for all variants: key=value, separated by commas");
 DEFINE_string(variants, "",
               "YAML file with the variants; empty takes config/comparisons/solvers.yaml");
 DEFINE_string(only, "",
               "names of the variants to take, separated by commas; the first is the yardstick");
 DEFINE_string(mode, "both", "lockstep, free or both");
-DEFINE_int32(every, 5, "lockstep: compare every so many windows");
+DEFINE_int32(every, 5, "lockstep: compare every Nth window");
 DEFINE_string(truth, "", "ground truth of the trajectory, for errors of the free runs");
 DEFINE_int32(threads, 1, "for all variants; 1 makes their times comparable");
 DEFINE_bool(overwrite, false, "replace an earlier result in the output folder");
@@ -36,28 +38,39 @@ using trajlo::UsageError;
 
 constexpr char kHelp[] = R"(The same windows, and the same recording, by many solvers.
 
-  trajlo_compare_solvers --input=recording --output=comparison
-      lockstep: in every fifth window all variants start from the same poses, associations and
+  trajlo_compare_solvers recording -o comparison
+      lockstep: in every fifth window, all variants start from the same poses, associations and
       prior; free: each runs the whole recording by itself. Writes
         comparison/comparison.json       everything, with settings and versions
         comparison/lockstep.csv          a line per window and variant: costs by factor, steps,
-                                         distance of the solutions, times by stage
+                                         distance between the solutions, times by stage
         comparison/iterations.csv        the cost after every step
         comparison/lockstep_summary.csv, free_summary.csv   a line per variant
         comparison/free/VARIANT/         trajectory.tum and windows.csv of each run
-        comparison/report.html           the figures in one page (also as SVG, PDF and PNG)
-  trajlo_compare_solvers --input=recording --output=comparison --truth=truth.tum
+        comparison/report.html           the figures on one page (also as SVG, PDF and PNG)
+  trajlo_compare_solvers recording -o comparison --truth=truth.tum
       with the errors of the free runs
-  trajlo_compare_solvers --input=recording --output=two --only=gauss_newton,ceres --every=1
-  trajlo_compare_solvers --input=recording --output=mine --variants=my_variants.yaml --mode=free
+  trajlo_compare_solvers recording -o two --only=gauss_newton,ceres --every=1
+      two of the variants, in every window; the first is the yardstick
+  trajlo_compare_solvers recording -o mine --variants=my_variants.yaml --mode=free
       my_variants.yaml:
         variants:
           - {name: paper, set: "expert.map.levels=1"}
           - {name: wide, set: "expert.map.levels=1,expert.registration.kernel_m=1.0"}
 
---input, --config and --set are those of trajlo_run (trajlo_run --show_config lists all keys).
+Flags:
+  -o, --output=FOLDER       where the comparison goes
+  --input=, --config=, --set=   as for trajlo_run, for all variants (trajlo_run --show_config lists
+                            all options)
+  --threads=N               for all variants (1, which makes their times comparable)
+  --mode=lockstep|free|both
+  --noreport                draw no figures
+  --overwrite               replace an earlier result
+  --quiet                   print warnings and errors only
+  -h, --help, --version
 
-Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 5 output not writable.
+Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 5 output not writable, 6 out
+of memory or a defect of the program.
 )";
 
 /// Those that `only` names, in its order; all if it is empty.
@@ -78,16 +91,17 @@ std::vector<trajlo::SolverVariant> Choose(const std::vector<trajlo::SolverVarian
   return chosen;
 }
 
-trajlo::CompareRequest RequestFromFlags() {
+trajlo::CompareRequest RequestFromFlags(const trajlo::CommandLine& line) {
   trajlo::CompareRequest request;
-  request.inputs = trajlo::InputPaths(FLAGS_input);
-  if (request.inputs.empty()) throw UsageError("--input is missing");
+  request.command_line = line.words;
+  request.inputs = trajlo::InputsOf(line, FLAGS_input);
   if (FLAGS_output.empty()) throw UsageError("--output is missing");
   request.config = trajlo::LoadConfig(FLAGS_config, FLAGS_set);
   trajlo::ApplyOverrides("threads=" + std::to_string(FLAGS_threads), &request.config, "--threads");
   trajlo::CheckConfig(request.config);
   trajlo::RequireExtrinsics(request.inputs, request.config);
-  const std::string variants = FLAGS_variants.empty() ? TRAJLO_SOLVERS_YAML : FLAGS_variants;
+  std::filesystem::path variants = FLAGS_variants;
+  if (variants.empty()) variants = trajlo::ConfigFolder() / "comparisons" / "solvers.yaml";
   request.variants =
       Choose(trajlo::LoadVariants(variants, request.config), trajlo::SplitAtCommas(FLAGS_only));
   if (FLAGS_mode != "both" && FLAGS_mode != "lockstep" && FLAGS_mode != "free") {
@@ -106,15 +120,17 @@ trajlo::CompareRequest RequestFromFlags() {
 }
 
 ExitCode Compare(const trajlo::CommandLine& line) {
-  trajlo::RequireNoArguments(line);
-  trajlo::CompareRequest request = RequestFromFlags();
-  request.command_line = line.words;
-  trajlo::RunComparison(request);
+  trajlo::RunComparison(RequestFromFlags(line));
   return ExitCode::kOk;
+}
+
+std::vector<std::string> Values(const std::string& flag) {
+  if (flag == "mode") return {"both", "lockstep", "free"};
+  return {};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return trajlo::RunCommand({"trajlo_compare_solvers", kHelp, Compare}, argc, argv);
+  return trajlo::RunCommand({"trajlo_compare_solvers", kHelp, Compare, Values}, argc, argv);
 }

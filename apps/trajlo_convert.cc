@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recordings of any kind as bags or folders of scans, excerpts, and the poses in bags. See --help.
+// Recordings of any kind as bags or folders of scans, excerpts, the poses in bags, and results of
+// trajlo_run for other tools. See --help.
 #include <gflags/gflags.h>
 
 #include <filesystem>
@@ -12,16 +13,27 @@
 #include "apps/load_config.h"
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
+#include "core/export/run_result.h"
 #include "core/io/conversion/scan_bag_writer.h"
 
+DEFINE_string(input, "", "the recording; in place of the first argument");
+DEFINE_string(output, "", "the bag, folder or file to write; in place of the last argument");
 DEFINE_string(topics, "", "of a bag, separated by commas; empty for all");
-DEFINE_double(start_s, 0.0, "skip so much of the recording");
+DEFINE_double(start_s, 0.0, "skip this much of the recording");
 DEFINE_double(duration_s, 0.0, "the length of the excerpt; 0 for all");
 DEFINE_string(layout, "", "of the points in a bag: ouster, velodyne or livox");
-DEFINE_string(compression, "none", "of a bag: none, lz4 or bz2");
+DEFINE_string(compression, "", "of a bag: none, lz4 or bz2; of MCAP: zstd, lz4 or none");
 DEFINE_string(poses, "", "the topic whose poses are written");
 DEFINE_string(config, "", "YAML files, separated by commas, of which input.* counts");
 DEFINE_string(set, "", "options of input.*: key=value, separated by commas");
+DEFINE_string(recording, "", "where the recording of a result is now");
+DEFINE_bool(scans, true, "deskewed scans in the bag of a result");
+DEFINE_bool(map, true, "the map in the bag of a result");
+DEFINE_double(voxel_m, 0.0, "of the map of a result; 0 for the spacing of the run's map");
+DEFINE_string(color, "height", "of the map of a result: height, intensity or time");
+DEFINE_string(frame, "body", "of deskewed scans: body or world");
+DEFINE_string(scan_format, "pcd", "of a folder of deskewed scans: pcd or ply");
+DEFINE_bool(keep_lost, false, "keep poses from where the estimator got lost on");
 DEFINE_bool(overwrite, false, "replace an earlier result");
 DEFINE_bool(quiet, false, "print warnings and errors only");
 
@@ -31,16 +43,31 @@ using trajlo::ExitCode;
 using trajlo::UsageError;
 
 constexpr char kHelp[] =
-    R"(Recordings of any kind as ROS 1 bags or folders of scans, and the poses in bags.
+    R"(Results of trajlo_run for other tools, and recordings of any kind as another.
+
+  trajlo_convert result result.mcap
+      a result for Foxglove and RViz (ros2 bag play): /tf, /odometry, /path, /map, and the deskewed
+      scans as /points_deskewed. Also .db3 and .bag. --noscans or --nomap leave these out; without
+      both, the recording is not read
+  trajlo_convert result map.ply
+      the map of the whole run with intensity, normals and colours (.pcd, too):
+      --voxel_m=M, --color=height|intensity|time
+  trajlo_convert result deskewed
+      deskewed/scans/*.pcd, one per scan (--scan_format=ply), in the frame of the body at the scan's
+      last point (--frame=world), with timestamps.txt, poses.txt (KITTI) and poses.tum
+  trajlo_convert result poses.txt
+      the poses in KITTI's format, and poses_times.txt; with .tum in TUM's
 
   trajlo_convert recording.bag part.bag --start_s=60 --duration_s=30
-      an excerpt; messages of all topics are copied byte by byte (ROS 1 bags), by when they were
-      recorded
-  trajlo_convert broken.bag mended.bag --compression=lz4
-      everything that can be read, with an index again
-  trajlo_convert recording.mcap recording.bag --layout=ouster
-      the points of ROS 2 bags, captures (.pcap) and folders of scans as a ROS 1 bag; a layout given
-      for a ROS 1 bag converts its points instead of copying its messages
+      an excerpt; messages of all topics are copied byte by byte, by when they were recorded
+  trajlo_convert broken.bag repaired.bag --compression=lz4
+      everything that can be read, with a new index
+  trajlo_convert recording.bag recording.mcap
+      a bag of one kind (.bag, .mcap, .db3) as another: messages of all topics with all fields. From
+      ROS 2 to ROS 1 go clouds, PoseStamped, Odometry, Path and TF; others are left out, and named
+  trajlo_convert recording.pcap recording.mcap --layout=ouster
+      the points of captures (.pcap) and folders of scans as a bag; a layout given for a bag
+      converts its points instead of copying its messages
   trajlo_convert recording.bag scans
       scans/scans/*.pcd and scans/timestamps.txt; several LiDARs: scans/lidar0/..., scans/lidar1/...
       with record_times.txt beside timestamps.txt, by which trajlo_run merges them
@@ -48,21 +75,32 @@ constexpr char kHelp[] =
       PoseStamped, PoseWithCovarianceStamped, TransformStamped, PointStamped or Odometry as TUM
       (ROS 1 and ROS 2)
 
-Flags:
+Flags of results:
+  --recording=PATH              where the recording is now; else where it was
+  --keep_lost                   also poses from where the estimator got lost on
+Flags of recordings:
   --topics=A,B                  of a bag; empty takes all
   --start_s=S --duration_s=S    from the first message (of its kind) on
   --layout=ouster|velodyne|livox
-  --compression=none|lz4|bz2    of the bag
-  --set=input.time_unit=us, --config=FILE   how point times are meant, as for trajlo_run
-  --overwrite, --quiet, --version
+  --set=input.time_unit=us, --config=NAME   how point times are meant, as for trajlo_run
+Flags of both:
+  --compression=NAME            of .bag none, lz4 or bz2; of .mcap zstd, lz4 or none
+  -o, --output=OUTPUT           the same as the last argument
+  --input=INPUT                 the same as the first argument
+  --overwrite                   replace an earlier result
+  --quiet                       print warnings and errors only
+  -h, --help, --version
 
-Points keep their positions and times: to the ns in the layouts of Ouster and Livox and in PCD (field
-t, uint32, ns), to 4 ns in Velodyne's (float32, s). Livox's has whole intensities from 0 to 255. Stamps
-become those of the sweeps' starts; scans keep their order, whatever the stamps. Rings and other
-fields are kept only where messages are copied.
+Points of recordings keep their positions and times: to the ns in the layouts of Ouster and Livox and
+in PCD (field t, uint32, ns), to 4 ns in Velodyne's (float32, s). Livox's has whole intensities from 0
+to 255. Stamps become those of the sweeps' starts; scans keep their order, whatever the stamps. Rings
+and other fields are kept only where messages are copied.
+Points of results have no times: they are deskewed. Left out, and counted, are those outside the
+trajectory and within pauses; so are poses that are not to be trusted.
 
-Exit codes: 0 ok, 1 wrong usage, 2 input unreadable, 3 a part of the input is damaged (the rest is
-written), 5 output not writable, 130 interrupted (what was read is written).
+Exit codes: 0 ok, 1 wrong usage, 2 input unreadable, 3 a part of the input is damaged, or the
+recording is not what it was (the rest is written), 5 output not writable, 6 out of memory or a defect of the
+program, 130 interrupted (what was read is written).
 )";
 
 trajlo::RecordingOptions RecordingFromFlags() {
@@ -80,8 +118,83 @@ trajlo::RecordingOptions RecordingFromFlags() {
   return config.input;
 }
 
-trajlo::ConvertRequest RequestFromFlags(const std::vector<std::string>& arguments) {
-  if (arguments.size() != 2) throw UsageError("an input and an output are needed");
+trajlo::ExportOptions ExportsFromFlags() {
+  trajlo::ExportOptions exports;
+  exports.recording = FLAGS_recording;
+  exports.scans = FLAGS_scans;
+  exports.map = FLAGS_map;
+  exports.keep_lost = FLAGS_keep_lost;
+  if (!(FLAGS_voxel_m == 0.0 || (FLAGS_voxel_m >= 0.001 && FLAGS_voxel_m <= 100.0))) {
+    throw UsageError("--voxel_m: must be between 0.001 and 100 m, or 0");
+  }
+  exports.voxel_m = FLAGS_voxel_m;
+  const auto color = trajlo::ParseColorBy(FLAGS_color);
+  if (!color) {
+    throw UsageError("--color: must be height, intensity or time, found '" + FLAGS_color + "'");
+  }
+  exports.color = *color;
+  if (FLAGS_frame != "body" && FLAGS_frame != "world") {
+    throw UsageError("--frame: must be body or world, found '" + FLAGS_frame + "'");
+  }
+  exports.frame = FLAGS_frame == "body" ? trajlo::PointFrame::kBody : trajlo::PointFrame::kWorld;
+  if (FLAGS_scan_format != "pcd" && FLAGS_scan_format != "ply") {
+    throw UsageError("--scan_format: must be pcd or ply, found '" + FLAGS_scan_format + "'");
+  }
+  exports.scan_files = "." + FLAGS_scan_format;
+  return exports;
+}
+
+void CheckOutput(const trajlo::ConvertRequest& request) {
+  std::error_code error;
+  if (std::filesystem::equivalent(request.input, request.output, error)) {
+    throw UsageError("input and output are the same");
+  }
+  const bool for_bags = request.layout || !request.compression.empty();
+  if (for_bags && !request.WritesBag()) {
+    throw UsageError(
+        "--layout and --compression are for bags: the output must end in .bag, .mcap or .db3");
+  }
+  if (for_bags && !trajlo::IsBagCompression(request.output, request.compression)) {
+    throw UsageError("--compression: must be " + trajlo::BagCompressions(request.output) +
+                     " for such an output, found '" + request.compression + "'");
+  }
+}
+
+/// Flags that a result has no use for are mistakes.
+void CheckResultOutput(const trajlo::ConvertRequest& request) {
+  const bool is_excerpt = FLAGS_start_s > 0.0 || FLAGS_duration_s > 0.0;
+  if (is_excerpt || request.layout || !FLAGS_topics.empty() || !FLAGS_poses.empty() ||
+      !FLAGS_config.empty() || !FLAGS_set.empty()) {
+    throw UsageError(
+        "--start_s, --duration_s, --layout, --topics, --poses, --config and --set are for "
+        "recordings; " +
+        request.input + " is a result of trajlo_run");
+  }
+  for (const char* other : {".pcap", ".bin", ".las", ".csv", ".html"}) {
+    if (request.output.extension() == other) {
+      throw UsageError(
+          "a result becomes .mcap, .db3, .bag, .ply, .pcd, .txt, .tum or a folder, not " +
+          std::string(other));
+    }
+  }
+}
+
+void CheckRecordingOutput(const trajlo::ConvertRequest& request) {
+  for (const char* other : {".pcap", ".pcd", ".bin", ".ply"}) {
+    if (request.poses.empty() && request.output.extension() == other) {
+      throw UsageError("the output is a .bag, .mcap, .db3 or a folder of scans, not a " +
+                       std::string(other));
+    }
+  }
+}
+
+/// Arguments and flags may be mixed: trajlo_convert in.bag -o out.bag.
+trajlo::ConvertRequest RequestFromFlags(std::vector<std::string> arguments) {
+  if (!FLAGS_input.empty()) arguments.insert(arguments.begin(), FLAGS_input);
+  if (!FLAGS_output.empty()) arguments.push_back(FLAGS_output);
+  if (arguments.size() != 2) {
+    throw UsageError("an input and an output are needed: trajlo_convert INPUT OUTPUT");
+  }
   trajlo::ConvertRequest request;
   request.input = arguments[0];
   request.output = arguments[1];
@@ -89,29 +202,19 @@ trajlo::ConvertRequest RequestFromFlags(const std::vector<std::string>& argument
   request.poses = FLAGS_poses;
   request.overwrite = FLAGS_overwrite;
   request.quiet = FLAGS_quiet;
-  const auto compression = trajlo::ParseBagCompression(FLAGS_compression);
-  if (!compression) {
-    throw UsageError("--compression: must be none, lz4 or bz2, found '" + FLAGS_compression + "'");
-  }
-  request.compression = *compression;
+  request.compression = FLAGS_compression;
   if (!FLAGS_layout.empty()) {
     request.layout = trajlo::ParseCloudLayout(FLAGS_layout);
     if (!request.layout) {
       throw UsageError("--layout: must be ouster, velodyne or livox, found '" + FLAGS_layout + "'");
     }
   }
-  const bool for_bags = request.layout || FLAGS_compression != "none";
-  if (for_bags && !request.WritesBag()) {
-    throw UsageError("--layout and --compression are for bags: the output must end in .bag");
-  }
-  std::error_code error;
-  if (std::filesystem::equivalent(request.input, request.output, error)) {
-    throw UsageError("input and output are the same");
-  }
-  for (const char* other : {".mcap", ".db3", ".pcap", ".pcd", ".bin", ".ply"}) {
-    if (request.poses.empty() && request.output.extension() == other) {
-      throw UsageError("the output is a .bag or a folder of scans, not a " + std::string(other));
-    }
+  request.exports = ExportsFromFlags();
+  CheckOutput(request);
+  if (trajlo::IsRunResult(request.input)) {
+    CheckResultOutput(request);
+  } else {
+    CheckRecordingOutput(request);
   }
   return request;
 }
@@ -120,8 +223,17 @@ ExitCode Convert(const trajlo::CommandLine& line) {
   return trajlo::ConvertJob(RequestFromFlags(line.arguments), trajlo::HandleInterrupts());
 }
 
+std::vector<std::string> Values(const std::string& flag) {
+  if (flag == "layout") return {"ouster", "velodyne", "livox"};
+  if (flag == "compression") return {"none", "lz4", "bz2", "zstd"};
+  if (flag == "color") return {"height", "intensity", "time"};
+  if (flag == "frame") return {"body", "world"};
+  if (flag == "scan_format") return {"pcd", "ply"};
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  return trajlo::RunCommand({"trajlo_convert", kHelp, Convert}, argc, argv);
+  return trajlo::RunCommand({"trajlo_convert", kHelp, Convert, Values, true}, argc, argv);
 }

@@ -56,12 +56,12 @@ constexpr char kHelp[] = R"(How far estimated trajectories are from the truth.
       absolute error (ATE), relative errors (RPE) and KITTI's errors
   trajlo_evaluate a/trajectory.tum b/trajectory.tum --truth=truth.tum --names=ours,theirs
       several estimates in one table
-  trajlo_evaluate estimate.tum truth.tum --output=evaluation
+  trajlo_evaluate estimate.tum truth.tum -o evaluation
       writes evaluation/evaluation.json   every number, settings, warnings
              evaluation/evaluation.csv    a row for each estimate
              evaluation/evaluation.tex    rows for a LaTeX table
              evaluation/errors_NAME.csv   aligned poses and errors
-             evaluation/report.html       with figures (not with --report=false)
+             evaluation/report.html       with figures (--noreport: none)
   trajlo_evaluate estimate.tum prism.tum --lever_arm=-0.293656,-0.012288,-0.273095
       the truth is the path of a prism at that place in the body frame (NTU VIRAL)
   trajlo_evaluate estimate.tum truth.txt --times=times.txt --T_body_truth=x,y,z,qx,qy,qz,qw
@@ -69,12 +69,16 @@ constexpr char kHelp[] = R"(How far estimated trajectories are from the truth.
   trajlo_evaluate estimate.tum truth.csv --association=nearest
       pairs exactly as evo forms them
 
-Files are in TUM's, KITTI's or EuRoC's format, told by their content.
-  --format=, --truth_format=auto|tum|kitti|euroc
+Files
+  --format=FORMAT, --truth_format=FORMAT   auto (told by the content), tum, kitti or euroc
+  --truth=FILE                the ground truth; all arguments are estimates then
+  --names=A,B                 names of the estimates, for tables and files
   --times=FILE                stamps for the lines of KITTI files
-  --repeated_stamps=auto|first|last|all   which poses of the same stamp count; auto is all with
-                              --association=nearest (as evo), last with one_to_one (as the TUM
-                              RGB-D benchmark), else first
+  --repeated_stamps=auto|first|last|all   which of several poses with one stamp count; auto: all
+                              with --association=nearest (as in evo), last with one_to_one (as in
+                              the TUM RGB-D benchmark), otherwise first
+  -o, --output=FOLDER         write tables, errors and a page there
+  --overwrite, --noreport     replace an earlier result; draw no figures
 
 Pairs
   --association=interpolate   the truth at every pose of the estimate (the default),
@@ -88,7 +92,11 @@ Pairs
   --time_offset_s=S           added to the stamps of the estimate (0)
   --estimate_time_offset      find the offset that makes the absolute position error smallest, up
                               to --time_offset_reach_s=S (0.5) away
-  --truth_orientation=auto|use|ignore   auto ignores rotations that all are the identity
+  --truth_orientation=auto|use|ignore   auto ignores rotations that are all the identity
+
+The frame of the truth
+  --lever_arm=x,y,z           the point that the truth describes, in the body frame, m
+  --T_body_truth=x,y,z,qx,qy,qz,qw   the frame that the truth describes, in the body frame
 
 Alignment
   --alignment=se3|sim3|scale|origin|none   Umeyama without or with scale, its scale alone, the
@@ -100,18 +108,19 @@ Relative errors
                               as evo, seconds as the TUM RGB-D benchmark
   --rpe_all_pairs             from every pose instead of pieces in a row
   --rpe_along_truth           metres and degrees along the truth instead of the aligned estimate
-  --rpe_tolerance=0.1         how far lengths in s, and in m from every pose, may be off, as a share
-                              (inf for seconds exactly as the TUM RGB-D benchmark)
+  --rpe_tolerance=0.1         how far lengths in s, and in m from every pose, may be off, relative to
+                              the length (inf for seconds exactly as the TUM RGB-D benchmark)
 
-An x marks runs that diverged: the absolute error is not finite, or above --diverged_percent=P (10)
-percent of the path and 0.5 m, or above --diverged_m=D (0: no such rule), or the estimate covers
-less than --min_completeness=SHARE (0.5) of the truth's poses (those between two of its poses at
-most 1 s apart).
+An x marks runs that diverged. A run diverged if its absolute error is not finite, or is above both
+--diverged_percent=P (10) percent of the path and 0.5 m, or is above --diverged_m=D (0: no such
+rule); or if it covers less than --min_completeness=SHARE (0.5) of the poses of the truth. A pose is
+covered if it lies between two poses of the estimate that are at most 1 s apart.
 
-More flags: --overwrite, --quiet, --version
+More flags: --quiet (print warnings and errors only), -h, --help, --version
 
 Exit codes: 0 ok (also if a run diverged), 1 wrong usage, 2 input unreadable or nothing to compare,
-3 some of several estimates could not be compared, 5 output not writable.
+3 some of several estimates could not be compared, 5 output not writable, 6 out of memory or a
+defect of the program.
 )";
 
 void CheckRange(const char* flag, double value, double low, double high) {
@@ -207,8 +216,19 @@ ExitCode Evaluate(const trajlo::CommandLine& line) {
   return trajlo::EvaluateJob(request);
 }
 
+std::vector<std::string> Values(const std::string& flag) {
+  if (flag == "format" || flag == "truth_format") return {"auto", "tum", "kitti", "euroc"};
+  if (flag == "repeated_stamps") return {"auto", "first", "last", "all"};
+  if (flag == "association") {
+    return {"interpolate", "interpolate_estimate", "nearest", "one_to_one"};
+  }
+  if (flag == "alignment") return {"se3", "sim3", "scale", "origin", "none"};
+  if (flag == "truth_orientation") return {"auto", "use", "ignore"};
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  return trajlo::RunCommand({"trajlo_evaluate", kHelp, Evaluate}, argc, argv);
+  return trajlo::RunCommand({"trajlo_evaluate", kHelp, Evaluate, Values}, argc, argv);
 }

@@ -4,18 +4,20 @@
 
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "apps/command.h"
+#include "apps/config_names.h"
+#include "apps/inputs.h"
 #include "apps/interrupt.h"
 #include "apps/load_config.h"
 #include "apps/require_extrinsics.h"
 #include "apps/run/run_job.h"
 #include "apps/usage_error.h"
-#include "core/io/recording/open_recording.h"
 
 DEFINE_string(input, "", "the recording: bag, capture or folder of scans; several with commas");
 DEFINE_string(output, "", "the folder to write");
-DEFINE_string(config, "", "YAML files, separated by commas; later ones override earlier ones");
+DEFINE_string(config, "", "names or YAML files, separated by commas; later ones win");
 DEFINE_string(set, "", "options to change: key=value, separated by commas");
 DEFINE_string(solver, "", "ceres or gauss_newton");
 DEFINE_int32(threads, -1, "0 for all cores; the result does not depend on it");
@@ -28,6 +30,7 @@ DEFINE_bool(quiet, false, "print warnings and errors only");
 DEFINE_bool(show_config, false, "print the configuration, every option explained, and stop");
 DEFINE_bool(show_expert_config, false,
             "print the options for those who study the estimator, and stop");
+DEFINE_bool(list_configs, false, "list the configurations that --config knows by name, and stop");
 
 namespace {
 
@@ -36,45 +39,54 @@ using trajlo::UsageError;
 
 constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory and a map come out.
 
-  trajlo_run --input=recording --output=result
-      reads recording/*.pcd, *.ply or *.bin (or recording/scans/...) and writes
+  trajlo_run flight.bag -o result
+      reads a ROS 1 bag, a ROS 2 bag (.db3, .mcap or its folder), a capture of Velodyne or Ouster
+      packets (.pcap), a folder of bags that follow each other, or a folder of scans (.pcd, .ply,
+      .bin), and writes
         result/trajectory.tum   poses of the body: time x y z qx qy qz qw
         result/map.ply          the map at the end
         result/view.ply         some points of some scans, for the 3-D view that draw_run.py makes
         result/windows.csv      what happened in every window
         result/config.yaml      all options as they were
-        result/run.json         counts, times, warnings, how it ended
-  trajlo_run --input=flight.bag --output=result
-      reads a ROS 1 bag, a ROS 2 bag (.db3, .mcap, or the folder), a capture of Velodyne or Ouster
-      packets (.pcap), or a folder of bags that follow each other
-  trajlo_run --input=flight.bag --output=result --set=input.topics=/os1_cloud_node1/points
-      one of several topics; [/a,/b] takes two LiDARs (trajlo_info prints the line to use)
-  trajlo_run --input=recording --output=result --config=config/outdoor.yaml
-      options from a file; several, separated by commas, override each other
-  trajlo_run --input=recording --output=result --set=window.segments=3,map.voxel_size_m=0.4
+        result/run.json         counts, times, warnings, and how the run ended
+  trajlo_run flight.bag -o result --config ouster
+      settings by name (--list_configs lists the names) or from a YAML file of your own;
+      --config ouster,indoor,mine.yaml takes several, and later ones win
+  trajlo_run flight.bag -o result --set window.segments=3 --set map.voxel_size_m=0.4
       options for this run alone
+  trajlo_run flight.bag -o result --set input.topics=/os1_cloud_node1/points
+      one of several topics; trajlo_info flight.bag lists them and prints the command to use
+  trajlo_run kitti/sequences/00 -o result --config kitti
+      motion-corrected scans without point times
+  trajlo_run front rear -o result --config rig.yaml
+      several LiDARs; sensor.T_body_lidar in rig.yaml says where each of them sits
   trajlo_run --show_config
       every option with its value and its meaning (with --config and --set: as they leave it)
-  trajlo_run --input=kitti/sequences/00 --output=result --config=config/datasets/kitti.yaml
-      motion-corrected scans without point times
-  trajlo_run --input=front,rear --output=result --config=rig.yaml
-      several LiDARs; sensor.T_body_lidar in the configuration must say where each one sits
 
-More flags:
+Flags:
+  -o, --output=FOLDER           where the result goes
+  -c, --config=NAMES            names of configurations, and YAML files
+  --set=KEY=VALUE               change options; may be repeated
+  --input=RECORDING             the same as the argument; several are separated by commas
   --solver=ceres|gauss_newton   how a window is solved (solver.kind)
   --threads=N                   0 for all cores; the result does not depend on it (one more thread
                                 reads the recording; N decompress bz2 in a ROS 1 bag, if N > 1)
   --rate=HZ                     trajectory.tum at even times
   --at=scan-end|scan-mid        trajectory.tum with one pose per scan
-  --covariance                  covariance.csv beside the trajectory: 6x6 of every control pose
-  --noview                      no view.ply
+  --covariance                  write covariance.csv: a 6x6 covariance for every control pose
+  --noview                      write no view.ply
   --overwrite                   replace an earlier result
   --quiet                       print warnings and errors only
-  --version                     versions of this program and of what it stands on
+  --list_configs                the names that --config knows, a sentence each
+  --show_config, --show_expert_config   the options, and those for who studies the estimator
+  -h, --help, --version         --version also names the libraries in use
+  --completion=bash|zsh         print the shell's completion: source <(trajlo_run --completion=bash)
 
-Exit codes: 0 ok, 1 wrong usage or configuration, 2 input unreadable, 3 a part of the input is
-damaged, 4 the estimator got lost, 5 output not writable, 130 interrupted. After 3, 4 and 130 the
-result until then is there.
+Flags may stand anywhere. A value may follow after a space in place of the `=`.
+
+Exit codes: 0 ok, 1 wrong usage or configuration, 2 input unreadable, 3 part of the input is
+damaged, 4 the estimator got lost, 5 output not writable, 6 out of memory or a defect of the
+program, 130 interrupted. After 3, 4 and 130 the result until then is there.
 )";
 
 trajlo::RunConfig ConfigFromFlags() {
@@ -105,12 +117,12 @@ trajlo::SamplingOptions SamplingFromFlags() {
   return {};
 }
 
-trajlo::RunRequest RequestFromFlags() {
+trajlo::RunRequest RequestFromFlags(const trajlo::CommandLine& line) {
   trajlo::RunRequest request;
+  request.command_line = line.words;
   request.config = ConfigFromFlags();
   request.sampling = SamplingFromFlags();
-  request.inputs = trajlo::InputPaths(FLAGS_input);
-  if (request.inputs.empty()) throw UsageError("--input is missing");
+  request.inputs = trajlo::InputsOf(line, FLAGS_input);
   if (FLAGS_output.empty()) throw UsageError("--output is missing");
   trajlo::RequireExtrinsics(request.inputs, request.config);
   request.output = FLAGS_output;
@@ -121,22 +133,37 @@ trajlo::RunRequest RequestFromFlags() {
   return request;
 }
 
+void ListConfigs() {
+  for (const trajlo::NamedConfig& config : trajlo::NamedConfigs()) {
+    std::printf("%-22s %s\n", config.name.c_str(), config.sentence.c_str());
+  }
+}
+
+void ShowConfig() {
+  const auto options = !FLAGS_show_expert_config ? trajlo::DumpedOptions::kForUsers
+                       : !FLAGS_show_config      ? trajlo::DumpedOptions::kForExperts
+                                                 : trajlo::DumpedOptions::kAll;
+  std::fputs(trajlo::DumpConfig(ConfigFromFlags(), options).c_str(), stdout);
+}
+
 ExitCode Run(const trajlo::CommandLine& line) {
-  trajlo::RequireNoArguments(line);
-  if (FLAGS_show_config || FLAGS_show_expert_config) {
-    const auto options = !FLAGS_show_expert_config ? trajlo::DumpedOptions::kForUsers
-                         : !FLAGS_show_config      ? trajlo::DumpedOptions::kForExperts
-                                                   : trajlo::DumpedOptions::kAll;
-    std::fputs(trajlo::DumpConfig(ConfigFromFlags(), options).c_str(), stdout);
+  if (FLAGS_list_configs || FLAGS_show_config || FLAGS_show_expert_config) {
+    trajlo::RequireNoArguments(line);
+    if (FLAGS_list_configs) ListConfigs();
+    if (FLAGS_show_config || FLAGS_show_expert_config) ShowConfig();
     return ExitCode::kOk;
   }
-  trajlo::RunRequest request = RequestFromFlags();
-  request.command_line = line.words;
-  return trajlo::RunJob(request, trajlo::HandleInterrupts());
+  return trajlo::RunJob(RequestFromFlags(line), trajlo::HandleInterrupts());
+}
+
+std::vector<std::string> Values(const std::string& flag) {
+  if (flag == "solver") return {"ceres", "gauss_newton"};
+  if (flag == "at") return {"scan-end", "scan-mid"};
+  return {};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return trajlo::RunCommand({"trajlo_run", kHelp, Run}, argc, argv);
+  return trajlo::RunCommand({"trajlo_run", kHelp, Run, Values, true}, argc, argv);
 }

@@ -2,11 +2,13 @@
 // Simulates LiDAR recordings with exact ground truth. See --help.
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -15,6 +17,7 @@
 
 #include "apps/command.h"
 #include "apps/usage_error.h"
+#include "core/config/edit_distance.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/simulation/recording_writer.h"
@@ -22,15 +25,16 @@
 #include "core/simulation/scenario_parameters.h"
 #include "core/simulation/simulator.h"
 
-DEFINE_string(scenario, "", "which recording to simulate; --list shows them");
-DEFINE_string(output, "", "the folder to write; it must not exist or be empty");
+DEFINE_string(scenario, "", "the same as the argument: what to simulate");
+DEFINE_string(output, "", "-o: the folder to write; it must be new or empty");
 DEFINE_double(duration_s, 0.0, "length of the recording; 0 keeps the scenario's own");
 DEFINE_int64(seed, 0,
              "seed of noise, shaking and details of the scene; 0 keeps the scenario's own");
-DEFINE_string(set, "", "parameters to change: key=value,key=value,...");
+DEFINE_string(set, "", "parameters to change: key=value; may be repeated");
 DEFINE_int32(threads, 0, "0 for all processors; the recording does not depend on it");
 DEFINE_bool(list, false, "list the scenarios and stop");
-DEFINE_bool(list_parameters, false, "list the parameters of --scenario with their values and stop");
+DEFINE_bool(list_parameters, false,
+            "list the parameters of the scenario with their values and stop");
 DEFINE_string(format, "pcd", "pcd: a folder of scans; bag: recording.bag for ROS 1");
 DEFINE_string(
     bag_layout, "",
@@ -48,23 +52,37 @@ using trajlo::simulation::Scenario;
 constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
 
   trajlo_simulate --list
-      the scenarios, a line each
-  trajlo_simulate --scenario=hall_os1_16 --output=hall
+      the scenarios, one per line
+  trajlo_simulate hall_os1_16 -o hall
       writes hall/scans/*.pcd, hall/timestamps.txt, hall/truth.tum, hall/scenario.yaml, and
-      hall/rig.yaml with the true extrinsics, for trajlo_run --config=hall/rig.yaml
-  trajlo_simulate --scenario=hall_os1_16 --output=hall2 --duration_s=30 --seed=2
+      hall/rig.yaml with the true extrinsics, for trajlo_run hall -o result -c hall/rig.yaml
+  trajlo_simulate hall_os1_16 -o hall2 --duration_s=30 --seed=2
       another hall, another flight, other noise
-  trajlo_simulate --scenario=hall_os1_16 --list_parameters
+  trajlo_simulate hall_os1_16 --list_parameters
       everything that --set can change, with its value
-  trajlo_simulate --scenario=hall_os1_16 --output=noisy --set=lidar.range_sigma_m=0.05,motion.speed_mps=5
+  trajlo_simulate hall_os1_16 -o noisy --set lidar.range_sigma_m=0.05 --set motion.speed_mps=5
       `lidar.` is every LiDAR of the rig, `lidar0.` the first
-  trajlo_simulate --scenario=hall_os1_16 --output=again --set=motion.kind=replay,motion.replay_file=run.tum
-      flies a trajectory of yours in the hall
-  trajlo_simulate --scenario=hall_os1_16 --output=broken --set=faults.dropped_scan_fraction=0.05
-  trajlo_simulate --scenario=hall_os1_16 --output=bagged --format=bag --bag_compression=lz4
+  trajlo_simulate hall_os1_16 -o again --set motion.kind=replay,motion.replay_file=run.tum
+      flies a trajectory of your own through the hall
+  trajlo_simulate hall_os1_16 -o broken --set faults.dropped_scan_fraction=0.05
+  trajlo_simulate hall_os1_16 -o bagged --format=bag --bag_compression=lz4
       bagged/recording.bag in place of the scans, with the truth on /truth
 
-Exit codes: 0 done, 1 wrong usage, 5 the output cannot be written.
+Flags:
+  -o, --output=FOLDER       where the recording goes: a folder that is new or empty
+  --overwrite               replace the recording that is in the folder
+  --scenario=NAME           the same as the argument
+  --set=KEY=VALUE           change parameters; may be repeated
+  --duration_s=S            the length of the recording; 0 keeps the scenario's own
+  --seed=N                  of noise, shaking and details of the scene; 0 keeps the scenario's own
+  --threads=N               0 for all processors; the recording does not depend on it
+  --format=pcd|bag          a folder of scans, or recording.bag for ROS 1
+  --bag_layout=ouster|velodyne|livox   of the points in the bag; each sensor's driver's by default
+  --bag_compression=none|lz4|bz2
+  --list, --list_parameters
+  -h, --help, --version
+
+Exit codes: 0 done, 1 wrong usage, 5 output not writable, 6 out of memory or a defect of the program.
 )";
 
 /// `key=value,key=value`. A piece without '=' belongs to the value before it, which lets a value
@@ -82,12 +100,30 @@ void ApplySettings(const std::string& settings, Scenario* scenario) {
       throw UsageError("--set: expected key=value, got '" + piece + "'");
     }
   }
-  for (const auto& [key, value] : pairs) trajlo::simulation::SetParameter(scenario, key, value);
+  std::set<std::string> seen;
+  for (const auto& [key, value] : pairs) {
+    if (!seen.insert(key).second) throw UsageError("--set: '" + key + "' is set twice");
+    trajlo::simulation::SetParameter(scenario, key, value);
+  }
 }
 
-Scenario ScenarioFromFlags() {
-  if (FLAGS_scenario.empty()) throw UsageError("--scenario is missing; try --list");
-  Scenario scenario = trajlo::simulation::MakeScenario(FLAGS_scenario);
+/// The name of the scenario: --scenario or the argument. Throws if there is no such scenario; empty
+/// if none is given.
+std::string ScenarioName(const trajlo::CommandLine& line) {
+  if (!FLAGS_scenario.empty() || line.arguments.size() > 1) RequireNoArguments(line);
+  const std::string name = line.arguments.empty() ? FLAGS_scenario : line.arguments.front();
+  const std::vector<std::string> names = trajlo::simulation::ScenarioNames();
+  if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return name;
+  const std::string nearest = trajlo::NearestKey(name, names);
+  throw UsageError("there is no scenario '" + name + "'" +
+                   (nearest.empty() ? "; --list shows them" : "; did you mean " + nearest + "?"));
+}
+
+Scenario ScenarioFromFlags(const std::string& name) {
+  if (name.empty()) {
+    throw UsageError("name a scenario (--list shows them): trajlo_simulate SCENARIO -o FOLDER");
+  }
+  Scenario scenario = trajlo::simulation::MakeScenario(name);
   if (FLAGS_duration_s > 0.0) scenario.duration_s = FLAGS_duration_s;
   if (FLAGS_seed != 0) scenario.seed = static_cast<std::uint64_t>(FLAGS_seed);
   ApplySettings(FLAGS_set, &scenario);
@@ -121,19 +157,6 @@ std::optional<trajlo::simulation::BagFormat> BagFormatFromFlags(const Scenario& 
   }
   format.compression = *compression;
   return format;
-}
-
-/// The examples, and the flags of this file.
-std::string Help() {
-  std::string text = std::string(kHelp) + "\nFlags:\n";
-  std::vector<gflags::CommandLineFlagInfo> flags;
-  gflags::GetAllFlags(&flags);
-  for (const gflags::CommandLineFlagInfo& flag : flags) {
-    if (flag.filename.find("trajlo_simulate") == std::string::npos) continue;
-    const std::string blanks(flag.name.size() < 16 ? 16 - flag.name.size() : 0, ' ');
-    text += "  --" + flag.name + blanks + " " + flag.description + "\n";
-  }
-  return text;
 }
 
 void List() {
@@ -184,12 +207,12 @@ void Write(const trajlo::simulation::Simulator& simulator,
 }
 
 ExitCode Simulate(const trajlo::CommandLine& line) try {
-  trajlo::RequireNoArguments(line);
+  const std::string name = ScenarioName(line);
   if (FLAGS_list) {
     List();
     return ExitCode::kOk;
   }
-  const Scenario scenario = ScenarioFromFlags();
+  const Scenario scenario = ScenarioFromFlags(name);
   if (FLAGS_list_parameters) {
     ListParameters(scenario);
     return ExitCode::kOk;
@@ -205,13 +228,28 @@ ExitCode Simulate(const trajlo::CommandLine& line) try {
     return ExitCode::kOutputNotWritable;
   }
   return ExitCode::kOk;
-} catch (const std::exception& error) {
-  // A scenario that cannot be made: parameters, or a file that they name.
+} catch (const std::logic_error& error) {  // Parameters that make no scenario,
   throw UsageError(error.what());
+} catch (const std::runtime_error& error) {  // or a file that they name.
+  throw UsageError(error.what());
+}
+
+std::vector<std::string> Values(const std::string& flag) {
+  if (flag.empty() || flag == "scenario") return trajlo::simulation::ScenarioNames();
+  if (flag == "format") return {"pcd", "bag"};
+  if (flag == "bag_layout") return {"ouster", "velodyne", "livox"};
+  if (flag == "bag_compression") return {"none", "lz4", "bz2"};
+  if (flag != "set") return {};
+  std::vector<std::string> keys;
+  Scenario scenario = trajlo::simulation::MakeScenario("hall_os1_16");
+  for (const auto& parameter : trajlo::simulation::Parameters(&scenario)) {
+    keys.push_back(parameter.key + "=");
+  }
+  return keys;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return trajlo::RunCommand({"trajlo_simulate", Help(), Simulate}, argc, argv);
+  return trajlo::RunCommand({"trajlo_simulate", kHelp, Simulate, Values}, argc, argv);
 }

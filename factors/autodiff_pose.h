@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "manifolds/eigen_abi.h"
+
 /// Poses for automatic differentiation (T: double or ceres::Jet), written from the textbook
 /// formulas and from Ceres's own rotation functions. They share nothing with the analytic code, so
 /// tests hold that against them; and a study can measure what analytic Jacobians are worth.

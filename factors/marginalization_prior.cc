@@ -50,7 +50,7 @@ MarginalizationPrior MarginalizeSchur(const Eigen::MatrixXd& H, const Eigen::Vec
                                       const std::vector<SE3>& staying) {
   const Matrix6d H_ll = H.topLeftCorner<6, 6>();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H_ll);
-  const Vector6d values = eigen.eigenvalues();
+  const Vector6d& values = eigen.eigenvalues();
   const double smallest = 1e-14 * std::max(values.maxCoeff(), 0.0);
   const Vector6d inverse =
       values.unaryExpr([smallest](double v) { return v > smallest ? 1.0 / v : 0.0; });
@@ -86,6 +86,7 @@ MarginalizationPriorCost::MarginalizationPriorCost(const MarginalizationPrior* p
 bool MarginalizationPriorCost::Evaluate(double const* const* parameters, double* residuals,
                                         double** jacobians) const {
   std::vector<SE3> s;
+  s.reserve(static_cast<std::size_t>(prior_->poses()));
   for (int i = 0; i < prior_->poses(); ++i) s.push_back(SE3::FromData(parameters[i]));
   Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = prior_->Residual(s);
   if (jacobians == nullptr) return true;

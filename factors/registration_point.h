@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// A measured point with the plane of the map that it was associated with.
@@ -12,6 +14,9 @@ struct RegistrationPoint {
   Eigen::Vector3d normal_world;  ///< Unit normal n of the plane nᵀx = d.
   double offset_m = 0.0;         ///< d.
   double weight = 1.0;           ///< Relative information of the association, in (0, 1].
+  /// By how much the noise of its map points tilts the plane: the variance of n in every direction
+  /// within the plane (rad²).
+  double normal_variance_rad2 = 0.0;
 };
 
 }  // namespace trajlo

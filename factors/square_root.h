@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// N is a size or Eigen::Dynamic. A quadratic ½ xᵀH x + gᵀx written as ½ |S x + s|² - ½ |s|²: SᵀS =
@@ -34,7 +36,7 @@ SquareRoot<N> MakePivotedSquareRoot(const Eigen::Matrix<double, N, N>& H,
       inverse_root[i] = 1.0 / root[i];
     }
   }
-  const auto P = ldlt.transpositionsP();
+  const auto& P = ldlt.transpositionsP();
   SquareRoot<N> result;
   Eigen::Matrix<double, N, N> permutation = Eigen::Matrix<double, N, N>::Identity(n, n);
   permutation = P * permutation;

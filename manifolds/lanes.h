@@ -3,13 +3,15 @@
 
 #include <Eigen/Core>
 
+#include "manifolds/eigen_abi.h"
+
 /// The few operations of 3-vectors that moving and registering points needs, for one double or for
 /// four points at a time. (Eigen's own vectorisation is off in this project; see CMakeLists.txt.)
 namespace trajlo::lanes {
 
 /// Four points at a time: GCC and Clang turn this into AVX, or into pairs of SSE2 where that is
 /// all.
-typedef double Lane4 __attribute__((vector_size(32)));
+typedef double Lane4 __attribute__((vector_size(32)));  // NOLINT(modernize-use-using): GCC's form
 
 template <typename T>
 inline constexpr int kLanes = 1;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "manifolds/eigen_abi.h"
 #include "manifolds/stumpff.h"
 
 /// SO(3): rotations as unit quaternions, tangent vectors theta in radians.

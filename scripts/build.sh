@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Configures and builds Release in build/. Arguments go to `cmake --build`, for instance
-# `--target trajlo_run`. TRAJLO_BUILD_DIR names another folder, TRAJLO_JOBS bounds the jobs.
+# `--target trajlo_run`. TRAJLO_BUILD_DIR names another folder, TRAJLO_JOBS bounds the jobs,
+# TRAJLO_CMAKE_ARGUMENTS has options for CMake, separated by blanks.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="${TRAJLO_BUILD_DIR:-$root/build}"
@@ -12,5 +13,6 @@ jobs="${TRAJLO_JOBS:-$(nproc)}"
 ((by_memory >= 1)) || by_memory=1
 ((jobs <= by_memory)) || jobs="$by_memory"
 
-cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release
+read -ra options <<<"${TRAJLO_CMAKE_ARGUMENTS:-}"
+cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${options[@]}"
 cmake --build "$build" --parallel "$jobs" "$@"

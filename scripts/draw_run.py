@@ -33,11 +33,12 @@ def draw_figures(run, folder, config):
     figures = [{"path": theme.save(figures_map.draw_views(run, ceiling), folder / "map",
                                    ("png", "svg", "pdf"), dpi=170)[0],
                 "caption": caption, "width": 1080}]
-    degenerate = config.get("lost", {}).get("degenerate_eigenvalue")
+    sigma_m = config.get("expert", {}).get("lost", {}).get("degenerate_sigma_m")
+    degenerate = 1.0 / sigma_m**2 if sigma_m else None
     path = theme.save(figures_run.draw_windows(run, degenerate), folder / "windows", dpi=170)[0]
     said = "Red: flagged windows. " if run.flags else ""
-    figures.append({"path": path, "width": 1080, "caption": f"Over time. {said}Information is that "
-                    "per point; times are means over 0.5 s."})
+    figures.append({"path": path, "width": 1080, "caption": f"Over time. {said}Times are means over "
+                    "0.5 s."})
     return figures
 
 

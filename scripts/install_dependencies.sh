@@ -1,9 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Installs what is missing of scripts/packages.txt, as root or with sudo. Does nothing, and needs
-# neither network nor rights, when everything is there.
+# neither network nor rights, when everything is there. With --checks also packages_checks.txt.
 set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+
+lists=("$here/packages.txt")
+case "${1:-}" in
+  "") ;;
+  --checks) lists+=("$here/packages_checks.txt") ;;
+  *) echo "install_dependencies.sh: $1 is no option; --checks is the only one" >&2; exit 1 ;;
+esac
 
 if ! command -v apt-get >/dev/null; then
   echo "install_dependencies.sh: this script is for Debian 12 (apt-get was not found);" \
@@ -11,7 +18,7 @@ if ! command -v apt-get >/dev/null; then
   exit 1
 fi
 
-mapfile -t packages < <(grep -Ev '^[[:space:]]*(#|$)' "$here/packages.txt")
+mapfile -t packages < <(grep -hEv '^[[:space:]]*(#|$)' "${lists[@]}")
 missing=()
 for package in "${packages[@]}"; do
   status="$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)"

@@ -28,6 +28,7 @@ while [[ $# -gt 0 ]]; do
 done
 
 "$root/scripts/install_dependencies.sh"
+export TRAJLO_CMAKE_ARGUMENTS="-DTRAJLO_BUILD_PYTHON=ON ${TRAJLO_CMAKE_ARGUMENTS:-}"
 "$root/scripts/build.sh"
 # A test that hangs is a failure, not a reason to wait for ever.
 ctest --test-dir "$build" --parallel "$(nproc)" --timeout 300 --output-on-failure \

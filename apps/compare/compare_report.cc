@@ -131,21 +131,22 @@ std::string CompareJson(const CompareRequest& request, const CompareReport& repo
     variants.push_back(std::move(json));
   }
   const Versions v = GetVersions();
-  const Json json = {{"command_line", request.command_line},
-                     {"input", request.inputs},
-                     {"truth", request.truth.empty() ? Json(nullptr) : Json(request.truth)},
-                     {"lockstep_options",
-                      {{"every", request.lockstep_options.every},
-                       {"max_iterations", request.lockstep_options.max_iterations},
-                       {"step_tolerance_m", request.lockstep_options.step_tolerance.translation_m},
-                       {"step_tolerance_rad", request.lockstep_options.step_tolerance.rotation_rad}}},
-                     {"versions",
-                      {{"trajlo", v.trajlo},
-                       {"git", v.git},
-                       {"eigen", v.eigen},
-                       {"ceres", v.ceres},
-                       {"compiler", v.compiler}}},
-                     {"variants", variants}};
+  const Json json = {
+      {"command_line", request.command_line},
+      {"input", request.inputs},
+      {"truth", request.truth.empty() ? Json(nullptr) : Json(request.truth)},
+      {"lockstep_options",
+       {{"every", request.lockstep_options.every},
+        {"max_iterations", request.lockstep_options.max_iterations},
+        {"step_tolerance_m", request.lockstep_options.step_tolerance.translation_m},
+        {"step_tolerance_rad", request.lockstep_options.step_tolerance.rotation_rad}}},
+      {"versions",
+       {{"trajlo", v.trajlo},
+        {"git", v.git},
+        {"eigen", v.eigen},
+        {"ceres", v.ceres},
+        {"compiler", v.compiler}}},
+      {"variants", variants}};
   return json.dump(2) + "\n";
 }
 

@@ -5,10 +5,14 @@
 #include <cstdio>
 
 #include "apps/convert/convert_scans.h"
+#include "apps/convert/export_result.h"
 #include "apps/print_warnings.h"
 #include "apps/reading_progress.h"
+#include "core/export/run_result.h"
 #include "core/io/conversion/bag_copy.h"
 #include "core/io/conversion/extract_poses.h"
+#include "core/io/conversion/message_copy.h"
+#include "core/io/errors.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/trajectory_writer.h"
 
@@ -19,15 +23,11 @@ constexpr char kCommand[] = "trajlo_convert";
 
 std::int64_t ToNs(double seconds) { return std::llround(1e9 * seconds); }
 
-IfExists WhatIfExists(const ConvertRequest& request) {
-  return request.overwrite ? IfExists::kReplace : IfExists::kFail;
-}
-
 ExitCode WritePoses(const ConvertRequest& request) {
   const ExtractedPoses extracted = ExtractPoses(request.input, request.poses);
   const std::int64_t begin_ns = extracted.poses.front().t_ns + ToNs(request.recording.start_s);
   const std::int64_t duration_ns = ToNs(request.recording.duration_s);
-  TumWriter tum(request.output, WhatIfExists(request));
+  TumWriter tum(request.output, request.WhatIfExists());
   std::size_t written = 0;
   for (const StampedPose& pose : extracted.poses) {
     if (pose.t_ns < begin_ns) continue;
@@ -46,13 +46,15 @@ ExitCode WritePoses(const ConvertRequest& request) {
   return partial ? ExitCode::kPartialInput : ExitCode::kOk;
 }
 
-ExitCode CopyMessages(const ConvertRequest& request, const std::atomic<bool>& stop) {
+ExitCode CopyRos1Bags(const ConvertRequest& request, const std::atomic<bool>& stop) {
   BagCopyOptions options;
   options.topics = request.recording.topics;
   options.start_ns = ToNs(request.recording.start_s);
   options.duration_ns = ToNs(request.recording.duration_s);
-  options.output.compression = request.compression;
-  options.output.if_exists = WhatIfExists(request);
+  if (!request.compression.empty()) {
+    options.output.compression = *ros1::FindCompression(request.compression);
+  }
+  options.output.if_exists = request.WhatIfExists();
   BagCopyResult copied;
   {
     ReadingProgress progress(stderr, request.quiet);
@@ -63,6 +65,35 @@ ExitCode CopyMessages(const ConvertRequest& request, const std::atomic<bool>& st
   PrintWarnings(kCommand, copied.report.warnings);
   if (!request.quiet) {
     std::printf("%zu messages copied as they are to %s\n", copied.messages, request.output.c_str());
+  }
+  return copied.report.damaged ? ExitCode::kPartialInput : ExitCode::kOk;
+}
+
+/// From one kind of bag to another.
+ExitCode CopyMessagesOver(const ConvertRequest& request, const std::atomic<bool>& stop) {
+  MessageCopyOptions options;
+  options.topics = request.recording.topics;
+  options.start_ns = ToNs(request.recording.start_s);
+  options.duration_ns = ToNs(request.recording.duration_s);
+  const auto bag = OpenBag(request.output, request.compression, request.WhatIfExists());
+  MessageCopyResult copied;
+  {
+    ReadingProgress progress(stderr, request.quiet);
+    options.on_progress = [&](std::size_t done, std::size_t all) { progress.Update(done, all); };
+    options.should_stop = [&] { return stop.load(); };
+    copied = CopyMessages(request.input, options, bag.get());
+  }
+  PrintWarnings(kCommand, copied.report.warnings);
+  for (const auto& [topic, reason] : copied.left_out) {
+    std::fprintf(stderr, "trajlo_convert: %s is left out: %s\n", topic.c_str(), reason.c_str());
+  }
+  if (copied.messages == 0) {
+    throw InputError(request.input, "no message lies in what is to be copied",
+                     "Check --topics, --start_s and --duration_s with trajlo_info.");
+  }
+  bag->Close();
+  if (!request.quiet) {
+    std::printf("%zu messages with all fields in %s\n", copied.messages, request.output.c_str());
   }
   return copied.report.damaged ? ExitCode::kPartialInput : ExitCode::kOk;
 }
@@ -79,9 +110,12 @@ ExitCode WriteScans(const ConvertRequest& request, const std::atomic<bool>& stop
 }
 
 ExitCode Convert(const ConvertRequest& request, const std::atomic<bool>& stop) {
+  if (IsRunResult(request.input)) return ExportResult(request, stop);
   if (!request.poses.empty()) return WritePoses(request);
-  const bool copy = request.WritesBag() && !request.layout && !Ros1BagsOf(request.input).empty();
-  return copy ? CopyMessages(request, stop) : WriteScans(request, stop);
+  const bool copy = request.WritesBag() && !request.layout && HoldsMessages(request.input);
+  if (!copy) return WriteScans(request, stop);
+  const bool is_ros1 = !Ros1BagsOf(request.input).empty() && request.output.extension() == ".bag";
+  return is_ros1 ? CopyRos1Bags(request, stop) : CopyMessagesOver(request, stop);
 }
 
 }  // namespace

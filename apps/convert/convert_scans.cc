@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/reading_progress.h"
+#include "core/io/conversion/open_bag.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/errors.h"
@@ -60,7 +61,7 @@ class BagOutput : public Output {
   BagOutput(const ConvertRequest& request, std::vector<std::string> topics)
       : layout_(request.layout.value_or(CloudLayout::kOuster)),
         topics_(std::move(topics)),
-        bag_(request.output, Options(request)) {
+        bag_(OpenBag(request.output, request.compression, request.WhatIfExists())) {
     for (std::size_t i = 0; i < topics_.size(); ++i) {
       // Folders have no topics, and those of captures are no names for ROS.
       const bool is_name = !topics_[i].empty() && topics_[i].front() == '/';
@@ -77,13 +78,6 @@ class BagOutput : public Output {
   void Close() override { bag_.Close(); }
 
  private:
-  static Ros1BagOptions Options(const ConvertRequest& request) {
-    Ros1BagOptions options;
-    options.compression = request.compression;
-    options.if_exists = request.overwrite ? IfExists::kReplace : IfExists::kFail;
-    return options;
-  }
-
   CloudLayout layout_;
   std::vector<std::string> topics_;
   ScanBagWriter bag_;
@@ -92,7 +86,7 @@ class BagOutput : public Output {
 class FolderOutput : public Output {
  public:
   FolderOutput(const ConvertRequest& request, std::size_t lidars) {
-    Prepare(request);
+    PrepareScanFolder(request.output, request.WhatIfExists());
     for (std::size_t i = 0; i < lidars; ++i) {
       folders_.emplace_back(lidars == 1 ? request.output
                                         : request.output / ("lidar" + std::to_string(i)));
@@ -108,17 +102,6 @@ class FolderOutput : public Output {
   }
 
  private:
-  /// Makes sure that nothing is lost, and that nothing of an older recording stays behind.
-  static void Prepare(const ConvertRequest& request) {
-    std::error_code error;
-    const fs::path& output = request.output;
-    if (!fs::exists(output, error) || fs::is_empty(output, error)) return;
-    if (!fs::is_directory(output, error) || !request.overwrite) {
-      throw OutputError(output, "is there already; choose another folder or add --overwrite");
-    }
-    RemoveScans(output);
-  }
-
   std::vector<PcdFolderWriter> folders_;
 };
 

@@ -43,7 +43,8 @@ ExitCode InfoJob(const InfoRequest& request, const std::atomic<bool>& stop) {
       continue;
     }
     if (request.json) continue;
-    std::printf("%s%s", found.size() > 1 ? "\n\n" : "", InfoTable(found.back()).c_str());
+    std::printf("%s%s", found.size() > 1 ? "\n\n" : "",
+                InfoTable(found.back(), request.program_folder).c_str());
     std::fflush(stdout);
   }
   if (request.json) std::fputs(InfoJson(found).c_str(), stdout);

@@ -17,6 +17,8 @@ struct InfoRequest {
   /// Only the first messages of each LiDAR.
   bool quick = false;
   bool quiet = false;
+  /// Put before the command that is advised: "build/apps/" for programs that are not in PATH.
+  std::string program_folder;
   /// Of packets that do not name it.
   std::optional<VelodyneModel> velodyne_model;
 };

@@ -53,6 +53,8 @@ Json PointJson(const PointSummary& points) {
                {"range_median_m", points.range_median_m},
                {"range_99_m", points.range_99_m},
                {"range_max_m", points.range_max_m},
+               {"elevation_1_deg", points.elevation_1_deg},
+               {"elevation_99_deg", points.elevation_99_deg},
                {"rings", nullptr}};
   if (points.rings) {
     json["rings"] = {{"distinct", points.rings->distinct},

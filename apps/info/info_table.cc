@@ -81,6 +81,8 @@ std::string PointLines(const PointSummary& points) {
     lines += Line("ranges", FormatText("%.2f to %.2f m, median %.2f m, 99 %% below %.2f m",
                                        points.range_min_m, points.range_max_m,
                                        points.range_median_m, points.range_99_m));
+    lines += Line("elevation", FormatText("98 %% of the points are from %.1f to %.1f degrees",
+                                          points.elevation_1_deg, points.elevation_99_deg));
   }
   if (points.rings) {
     lines += Line("rings", FormatText("%zu, from %u to %u", points.rings->distinct,
@@ -175,7 +177,7 @@ std::string CloudBlock(const CloudInspection& cloud, std::size_t lidar) {
 
 }  // namespace
 
-std::string InfoTable(const RecordingInspection& recording) {
+std::string InfoTable(const RecordingInspection& recording, const std::string& program_folder) {
   std::string table = recording.path + ": " + FormatText("%.3f s, ", recording.duration_s) +
                       Plural(recording.topics.size(), "topic") +
                       (recording.is_quick ? ", of which the first messages were read\n" : "\n");
@@ -193,7 +195,7 @@ std::string InfoTable(const RecordingInspection& recording) {
   }
   const RunAdvice advice = AdviseRun(recording);
   if (advice.command.empty()) return table + "\nno point clouds: there is nothing to run on\n";
-  table += "\nto run on it:\n  " + advice.command + "\n";
+  table += "\nto run on it:\n  " + program_folder + advice.command + "\n";
   for (const std::string& remark : advice.remarks) table += "  - " + remark + "\n";
   return table;
 }

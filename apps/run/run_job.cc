@@ -6,6 +6,7 @@
 #include <exception>
 #include <sstream>
 
+#include "apps/failure_text.h"
 #include "apps/print_warnings.h"
 #include "core/comparison/forms/ceres_form_solver.h"
 #include "core/io/atomic_file.h"
@@ -235,12 +236,14 @@ void Execute(const RunRequest& request, const ResultFolder& folder, ScanSource* 
     run.Summarise();
     throw;
   } catch (const std::exception& error) {
-    failure = error.what();
+    failure = FailureText(error);
   }
   run.Write();
   run.Summarise();
   JudgeOutcome(stop, summary);
-  if (!failure.empty()) End(ExitCode::kLost, "failed", "the estimator failed: " + failure, summary);
+  if (!failure.empty()) {
+    End(ExitCode::kFailed, "failed", failure + " (while estimating)", summary);
+  }
 }
 
 RunSummary StartSummary(const RunRequest& request) {
@@ -252,6 +255,17 @@ RunSummary StartSummary(const RunRequest& request) {
   summary.solver = ceres ? "ceres" : "gauss_newton";
   summary.threads = request.config.odometry.threads;
   return summary;
+}
+
+/// How the recording is read, and what is done to its points.
+std::string Understood(const ScanSource& recording, const RunRequest& request) {
+  std::ostringstream text;
+  text << recording.description();
+  const double up_deg = request.config.odometry.segmenter.vertical_correction_deg;
+  if (up_deg != 0.0) {
+    text << "\nevery ray is turned up by " << up_deg << " degrees (sensor.vertical_correction_deg)";
+  }
+  return text.str();
 }
 
 void Print(const RunRequest& request, const RunSummary& summary) {
@@ -273,8 +287,9 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
     folder.Check(request.overwrite);
     const std::unique_ptr<ScanSource> recording =
         OpenRecording(request.inputs, request.config.input, request.config.odometry.threads);
-    summary.input_description = Lines(recording->description());
-    if (!request.quiet) std::printf("%s\n", recording->description().c_str());
+    const std::string understood = Understood(*recording, request);
+    summary.input_description = Lines(understood);
+    if (!request.quiet) std::printf("%s\n", understood.c_str());
     std::fflush(stdout);
     folder.Prepare();
     prepared = true;
@@ -283,13 +298,15 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
     End(ExitCode::kOutputNotWritable, "output_not_writable", error.what(), &summary);
   } catch (const InputError& error) {
     End(ExitCode::kInputUnreadable, "input_unreadable", error.what(), &summary);
+  } catch (const std::exception& error) {
+    End(ExitCode::kFailed, "failed", FailureText(error), &summary);
   }
   summary.wall_s = SecondsSince(begin);
   summary.cpu_s = ProcessCpuSeconds();
   summary.peak_memory_mb = PeakMemoryMegabytes();
   if (!prepared) {
     std::fprintf(stderr, "trajlo_run: %s\n", summary.message.c_str());
-    return static_cast<ExitCode>(summary.exit_code);
+    return static_cast<ExitCode>(*summary.exit_code);
   }
   try {
     WriteRunJson(folder.summary(), summary);
@@ -298,7 +315,7 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
     summary.exit_code = static_cast<int>(ExitCode::kOutputNotWritable);
   }
   Print(request, summary);
-  return static_cast<ExitCode>(summary.exit_code);
+  return static_cast<ExitCode>(*summary.exit_code);
 }
 
 }  // namespace trajlo

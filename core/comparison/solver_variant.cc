@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "core/config/config_file.h"
+
 namespace trajlo {
 namespace {
 
@@ -18,9 +20,7 @@ std::string Where(const std::filesystem::path& path, const YAML::Node& node) {
 std::vector<SolverVariant> LoadVariants(const std::filesystem::path& path, const RunConfig& base) {
   YAML::Node root;
   try {
-    root = YAML::LoadFile(path.string());
-  } catch (const YAML::BadFile&) {
-    throw ConfigError(path.string(), "there is no such file, or it cannot be read");
+    root = YAML::Load(ReadConfigFile(path));
   } catch (const YAML::Exception& error) {
     throw ConfigError(path.string() + ":" + std::to_string(error.mark.line + 1),
                       "this is not valid YAML: " + error.msg);

@@ -29,6 +29,9 @@ void LoadConfigFile(const std::filesystem::path& path, RunConfig* config);
 /// The same for YAML in memory; `name` stands for the file in messages.
 void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config);
 
+/// The same for options that a program hands over: messages name no line, as the user wrote none.
+void LoadConfigValues(const std::string& yaml, const std::string& name, RunConfig* config);
+
 /// Sets "key=value,key=value"; values are written as in YAML, and commas within brackets belong to
 /// the value. Throws ConfigError; `name` stands for the origin of the text in messages.
 void ApplyOverrides(std::string_view settings, RunConfig* config,

@@ -10,7 +10,7 @@ namespace {
 
 constexpr char kForm[] =
     "expected a list with one transform per LiDAR, each {translation_m: [x, y, z], rotation: [qx, "
-    "qy, qz, qw]} or {matrix: [[...4 numbers], [...], [...]]}";
+    "qy, qz, qw]} or a matrix as a list of 12 or 16 numbers, row by row";
 
 /// Appends the numbers of a list, row by row if it holds lists.
 void CollectNumbers(const YAML::Node& node, std::vector<double>* numbers) {
@@ -47,11 +47,29 @@ Eigen::Quaterniond ParseQuaternion(const YAML::Node& node) {
   return std::abs(q.squaredNorm() - 1.0) < 1e-15 ? q : q.normalized();
 }
 
+/// Throws unless R is orthonormal, to the few digits that calibrations are printed with, and turns
+/// without mirroring.
+void CheckRotation(const YAML::Node& node, const Eigen::Matrix3d& R) {
+  const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  const double determinant = R.determinant();
+  if (error <= 1e-3 && determinant > 0.0) return;
+  const std::string why = error > 1e-3
+                              ? "its columns are not orthogonal and of length 1, RᵀR "
+                                "differs from the identity by " +
+                                    NumberText(error)
+                              : "it mirrors, its determinant is " + NumberText(determinant);
+  throw ErrorAt(node, "the 3x3 part of the matrix is no rotation: " + why);
+}
+
 SE3 ParseMatrix(const YAML::Node& node) {
   const std::vector<double> v = Numbers(node);
   if (v.size() != 12 && v.size() != 16) {
-    throw ErrorAt(node, "matrix needs 3 or 4 rows of 4 numbers, found " + std::to_string(v.size()) +
-                            " numbers");
+    throw ErrorAt(node, "a matrix needs 3 or 4 rows of 4 numbers, found " +
+                            std::to_string(v.size()) + " numbers");
+  }
+  const bool has_last_row = v.size() == 16;
+  if (has_last_row && (v[12] != 0.0 || v[13] != 0.0 || v[14] != 0.0 || v[15] != 1.0)) {
+    throw ErrorAt(node, "the last row of the matrix must be 0 0 0 1; numbers go row by row");
   }
   Eigen::Matrix3d R;
   Eigen::Vector3d t;
@@ -59,16 +77,12 @@ SE3 ParseMatrix(const YAML::Node& node) {
     for (int column = 0; column < 3; ++column) R(row, column) = v[4 * row + column];
     t[row] = v[4 * row + 3];
   }
-  const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (error > 1e-3 || R.determinant() < 0.0) {
-    throw ErrorAt(node, "the 3x3 part of matrix is no rotation: RᵀR differs from I by " +
-                            NumberText(error) + ", its determinant is " +
-                            NumberText(R.determinant()));
-  }
+  CheckRotation(node, R);
   return {Eigen::Quaterniond(R).normalized(), t};
 }
 
 SE3 ParseTransform(const YAML::Node& node) {
+  if (node.IsSequence()) return ParseMatrix(node);
   if (!node.IsMap()) throw ErrorAt(node, kForm);
   SE3 T;
   for (const auto& entry : node) {
@@ -100,6 +114,9 @@ std::string ListText(std::initializer_list<double> values) {
 }  // namespace
 
 std::vector<SE3> ParseExtrinsics(const YAML::Node& node) {
+  const bool is_single =
+      node.IsMap() || (node.IsSequence() && node.size() > 0 && node[0].IsScalar());
+  if (is_single) return {ParseTransform(node)};
   if (!node.IsSequence()) throw ErrorAt(node, kForm);
   std::vector<SE3> extrinsics;
   for (const YAML::Node& item : node) extrinsics.push_back(ParseTransform(item));

@@ -2,10 +2,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "core/config/config_file.h"
 #include "core/config/edit_distance.h"
 #include "core/config/option.h"
 #include "core/config/yaml_scalars.h"
@@ -38,6 +37,8 @@ class Loader {
       const std::string key = prefix + entry.first.Scalar();
       if (!IsSection(key)) {
         Set(key, entry.first, entry.second);
+      } else if (!seen_.insert(key).second) {
+        Fail(entry.first, "the section '" + key + "' is there twice");
       } else if (entry.second.IsMap()) {
         Walk(key + ".", entry.second);
       } else if (!entry.second.IsNull()) {  // A section may be empty.
@@ -128,21 +129,25 @@ std::string Trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
 }
 
-}  // namespace
-
-void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config) {
-  YAML::Node root;
+void LoadYaml(const std::string& yaml, const std::string& name, bool with_places,
+              RunConfig* config) {
+  std::vector<YAML::Node> documents;
   try {
-    root = YAML::Load(yaml);
+    documents = YAML::LoadAll(yaml);
   } catch (const YAML::Exception& error) {
     throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ":" +
                           std::to_string(error.mark.column + 1),
                       "this is not valid YAML: " + error.msg);
   }
-  if (root.IsNull()) return;
+  if (documents.empty()) return;
   // Work on a copy: a file with an error changes nothing.
   RunConfig loaded = *config;
-  Loader loader(name, true, &loaded);
+  Loader loader(name, with_places, &loaded);
+  const YAML::Node& root = documents.front();
+  if (documents.size() > 1) {
+    loader.Fail(documents[1], "a second YAML document begins here; a file holds one");
+  }
+  if (root.IsNull()) return;
   if (!root.IsMap()) {
     loader.Fail(root, "expected sections with keys, such as 'window: {segments: 4}'");
   }
@@ -150,15 +155,18 @@ void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig*
   *config = loaded;
 }
 
+}  // namespace
+
+void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config) {
+  LoadYaml(yaml, name, true, config);
+}
+
+void LoadConfigValues(const std::string& yaml, const std::string& name, RunConfig* config) {
+  LoadYaml(yaml, name, false, config);
+}
+
 void LoadConfigFile(const std::filesystem::path& path, RunConfig* config) {
-  std::error_code error;
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path, error)) {
-    throw ConfigError(path.string(), "there is no such config file, or it cannot be read");
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  LoadConfigText(text.str(), path.string(), config);
+  LoadConfigText(ReadConfigFile(path), path.string(), config);
 }
 
 void ApplyOverrides(std::string_view settings, RunConfig* config, const std::string& name) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// Errors of a list of poses or relative poses, each derived from E, the pose of the truth seen

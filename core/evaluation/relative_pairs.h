@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// Indices of the first and the last pose of the pieces that relative errors are computed over.

@@ -19,6 +19,8 @@ class AtomicFile {
 
   void Write(std::string_view bytes) { file_->Write(bytes); }
   void Commit();
+  /// Where the bytes are until then, for a library that writes a file by itself.
+  const std::filesystem::path& part_path() const { return part_path_; }
 
  private:
   std::filesystem::path path_;

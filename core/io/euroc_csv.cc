@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/io/errors.h"
+#include "core/io/finite_pose.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_lines.h"
@@ -42,7 +43,7 @@ std::vector<StampedPose> ParseEurocCsv(const std::filesystem::path& path, std::s
     const auto t_ns = ParseDecimalNs(stamp, 1);
     pose.T_world_body.t = Eigen::Vector3d(v[0], v[1], v[2]);
     pose.T_world_body.q = Eigen::Quaterniond(v[3], v[4], v[5], v[6]);
-    if (!t_ns || !pose.T_world_body.IsFinite() || pose.T_world_body.q.norm() < 1e-6) {
+    if (!t_ns || !HasFiniteLength(pose.T_world_body) || pose.T_world_body.q.norm() < 1e-6) {
       if (warnings != nullptr) {
         warnings->push_back(path.string() + ": line " + std::to_string(lines.number()) +
                             " is skipped: a number is not finite or the quaternion is zero");

@@ -29,7 +29,8 @@ struct Descriptor {
 }  // namespace
 
 FileBytes ReadFileBytes(const std::filesystem::path& path) {
-  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  // Without O_NONBLOCK, opening a pipe would wait for somebody to write to it.
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
   if (file.fd < 0) Fail(path, "opening");
   struct stat info {};
   if (::fstat(file.fd, &info) != 0) Fail(path, "stat");

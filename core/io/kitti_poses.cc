@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/io/errors.h"
+#include "core/io/finite_pose.h"
 #include "core/io/number_text.h"
 #include "core/io/trajectory_lines.h"
 
@@ -43,7 +44,7 @@ std::vector<Eigen::Affine3d> ParseKittiPoses(const std::filesystem::path& path,
     if (!TakeWord(&line).empty()) {
       fail("has more than twelve columns", "Stamps and the row 0 0 0 1 do not belong there.");
     }
-    if (!pose.matrix().allFinite()) {
+    if (!HasFiniteLength(pose.matrix())) {
       fail("has a number that is not finite",
            "Without stamps a pose cannot be left out; write the trajectory in TUM's format.");
     }

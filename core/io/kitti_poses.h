@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// Parses poses in KITTI's format: 12 numbers a line, the upper 3x4 of the pose row by row.

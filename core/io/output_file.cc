@@ -25,13 +25,17 @@ bool IsDevice(const std::filesystem::path& path) {
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path, IfExists if_exists) : path_(path) {
-  int flags = O_WRONLY | O_CREAT | O_CLOEXEC | O_TRUNC;
+  // Without O_NONBLOCK, opening a pipe would wait for somebody to read from it.
+  int flags = O_WRONLY | O_CREAT | O_CLOEXEC | O_TRUNC | O_NONBLOCK;
   if (if_exists == IfExists::kFail && !IsDevice(path)) flags |= O_EXCL;
   fd_ = ::open(path.c_str(), flags, 0666);
   if (fd_ < 0 && errno == EEXIST) {
     throw OutputError(path_, "exists already and is not replaced without being told so");
   }
+  if (fd_ < 0 && errno == ENXIO) throw OutputError(path_, "is a pipe that nobody reads");
   if (fd_ < 0) Fail("creating");
+  // Writing may wait.
+  if (::fcntl(fd_, F_SETFL, ::fcntl(fd_, F_GETFL) & ~O_NONBLOCK) != 0) Fail("creating");
 }
 
 OutputFile::~OutputFile() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/io/output_file.h"
+#include "manifolds/eigen_abi.h"
 
 namespace trajlo {
 

@@ -14,8 +14,9 @@
 
 namespace trajlo {
 
+// O_NONBLOCK: opening a pipe would otherwise wait for somebody to write to it.
 RandomAccessFile::RandomAccessFile(const std::filesystem::path& path)
-    : path_(path), fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    : path_(path), fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   struct stat info {};
   if (fd_ < 0 || ::fstat(fd_, &info) != 0) {
     const std::string reason = std::strerror(errno);

@@ -57,7 +57,7 @@ PositionColumns FindPosition(const std::filesystem::path& path, const PointTable
   for (const Column* column : columns.axis) {
     if (column != nullptr) continue;
     throw InputError(path,
-                     "the fields x, y and z are sought, but the file has: " + table.FieldNames(),
+                     "a scan needs the fields x, y and z, but this file has: " + table.FieldNames(),
                      "Rename the fields of the file.");
   }
   return columns;

@@ -54,8 +54,8 @@ void ScanFolder::Probe() {
     }
     const bool is_cloud = probe.Note(file, table, of_scan(stamps_.t_ns), of_scan(recorded_ns_));
     if (!is_cloud && first_problem.empty()) {
-      first_problem = file.string() +
-                      ": the fields x, y and z are sought, but the file has: " + table.FieldNames();
+      first_problem = file.string() + ": a scan needs the fields x, y and z, but this file has: " +
+                      table.FieldNames();
     }
   }
   if (probe.readable() == 0) {

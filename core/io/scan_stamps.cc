@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -91,6 +92,33 @@ std::optional<std::size_t> IndexOfName(const fs::path& file) {
   const auto [stop, error] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
   if (error != std::errc() || stop != stem.data() + stem.size()) return {};
   return index;
+}
+
+/// A name with its numbers left out: "scan_007 (2)" -> "scan_# (#)".
+std::string Pattern(const fs::path& file) {
+  std::string pattern;
+  for (const char c : file.stem().string()) {
+    const bool is_digit = c >= '0' && c <= '9';
+    if (!is_digit || pattern.empty() || pattern.back() != '#') pattern += is_digit ? '#' : c;
+  }
+  return pattern;
+}
+
+/// Lines go to scans in the order of their names, and that says nothing where names follow several
+/// patterns: "copy of 000012.pcd" comes behind all others. Throws InputError then.
+void RequireOnePattern(const ScanListing& listing, const fs::path& stamps_file) {
+  std::map<std::string, std::vector<fs::path>> by_pattern;
+  for (const fs::path& file : listing.files) by_pattern[Pattern(file)].push_back(file.filename());
+  if (by_pattern.size() < 2) return;
+  const auto rarer = [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); };
+  const auto [odd, usual] = std::minmax_element(by_pattern.begin(), by_pattern.end(), rarer);
+  throw InputError(stamps_file,
+                   "it is not known which stamp is whose: the names of the scans do not follow one "
+                   "pattern, such as " +
+                       odd->second.front().string() + " and " + usual->second.front().string() +
+                       " in " + listing.folder.string(),
+                   "Name the scans alike, so that their order is that of the stamps, or take the "
+                   "others out.");
 }
 
 /// The line of each scan when there are more stamps than scans: KITTI's raw recordings keep the
@@ -182,6 +210,7 @@ ScanStamps FindStamps(const fs::path& stamps_file, ScanListing* listing) {
   if (file.empty()) return StampsOfNames(listing);
 
   const std::vector<std::int64_t> lines = ReadLinesFor(*listing, file);
+  RequireOnePattern(*listing, file);
   const std::size_t scans = listing->files.size();
   ScanStamps stamps;
   stamps.source = file.filename().string();

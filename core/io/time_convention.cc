@@ -15,8 +15,8 @@ constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, Time
 /// Bounds what a wrong unit given by the user can do.
 constexpr double kLongestSweep = 1000.0;
 constexpr char kMend[] =
-    "Say it with time_unit (s, ms, us, ns) and time_origin (start, stamp, end, absolute), name "
-    "another time_field, or set point_time to none for motion-corrected scans.";
+    "Set input.time_unit (s, ms, us, ns) and input.time_origin (start, stamp, end, absolute), or "
+    "another input.time_field; for motion-corrected scans, input.point_time=none.";
 
 std::string Number(double value) {
   char text[40];
@@ -82,8 +82,12 @@ TimeUnit DeduceUnit(const TimeEvidence& evidence, const Summary& summary) {
                    kMend);
 }
 
-/// True if zero lies within the sweep or close to one of its ends.
-bool IsRelative(const std::vector<TimeSample>& samples, double span) {
+/// True if zero lies within the sweep or close to one of its ends. Where a part of the sweep has no
+/// returns, the period tells how long it is.
+bool IsRelative(const TimeEvidence& evidence, TimeUnit unit, double seen) {
+  const double period = evidence.period_s * 1e9 / static_cast<double>(NanosecondsPer(unit));
+  const double span = std::max(seen, period);
+  const std::vector<TimeSample>& samples = evidence.samples;
   const auto broken = std::count_if(samples.begin(), samples.end(), [&](const TimeSample& sample) {
     return sample.first < -1.25 * span || sample.last > 1.25 * span;
   });
@@ -286,7 +290,7 @@ TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOpti
                    Number(span_s) + " s";
   if (options.origin != TimeOrigin::kAuto) {
     found.origin = options.origin;
-  } else if (IsRelative(evidence.samples, summary.span)) {
+  } else if (IsRelative(evidence, found.unit, summary.span)) {
     found.origin = RelativeOrigin(summary);
   } else {
     found.origin = TimeOrigin::kAbsolute;

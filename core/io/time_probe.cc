@@ -39,10 +39,10 @@ bool TimeProbe::Note(const std::filesystem::path& where, const PointTable& table
   if (!options_.use_point_times) return true;
   const Column* column = FindTimeColumn(table, options_.field);
   if (column == nullptr && !options_.field.empty()) {
-    throw InputError(
-        where,
-        "time_field '" + options_.field + "' is sought, but the points have: " + table.FieldNames(),
-        "Set time_field to one of these, or leave it empty.");
+    throw InputError(where,
+                     "there is no field '" + options_.field +
+                         "' (input.time_field); the points have: " + table.FieldNames(),
+                     "Set input.time_field to one of these, or leave it empty.");
   }
   if (column == nullptr || (!evidence_.field.empty() && column->name != evidence_.field)) {
     return true;
@@ -75,15 +75,20 @@ bool TimeProbe::HasStamps() const {
 }
 
 TimeConvention TimeProbe::DecideWithoutTimes() const {
+  constexpr char kBlur[] =
+      "points have no times of their own: right for motion-corrected scans only, others blur with "
+      "every turn (input.point_time=none says that they are corrected)";
   const std::string scans = std::to_string(readable_);
   TimeConvention convention;
   if (!options_.use_point_times) {
     convention.evidence = "no point times: switched off by point_time none";
   } else if (with_points_ > 0 && evidence_.field.empty()) {
     convention.evidence = "no point times: none of the fields (" + fields_ + ") has a known name";
+    convention.doubt = kBlur;
   } else if (constant_ > 0) {
     convention.evidence = "no point times: field '" + evidence_.field +
                           "' is the same for all points of each of the first " + scans + " scans";
+    convention.doubt = kBlur;
   } else {
     convention.evidence = "no point times: none of the first " + scans + " scans has enough points";
   }
@@ -91,9 +96,10 @@ TimeConvention TimeProbe::DecideWithoutTimes() const {
       options_.use_point_times && (!options_.field.empty() || options_.unit != TimeUnit::kAuto ||
                                    options_.origin != TimeOrigin::kAuto);
   if (is_asked_for) {
-    throw InputError(path_, "point times are asked for, but there are " + convention.evidence,
-                     "Leave time_field, time_unit and time_origin to auto, or set point_time to "
-                     "none.");
+    throw InputError(
+        path_, "point times are asked for, but there are " + convention.evidence,
+        "Leave input.time_field empty and input.time_unit and input.time_origin at auto, "
+        "or set input.point_time to none.");
   }
   return convention;
 }

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// How the poses of a file are written.

@@ -7,6 +7,7 @@
 #include "core/io/ascii_table.h"
 #include "core/io/errors.h"
 #include "core/io/file_bytes.h"
+#include "core/io/finite_pose.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
 
@@ -29,7 +30,7 @@ LineKind ParseLine(std::string_view line, StampedPose* pose) {
   pose->t_ns = *t_ns;
   pose->T_world_body.t = Eigen::Vector3d(values[0], values[1], values[2]);
   pose->T_world_body.q = Eigen::Quaterniond(values[6], values[3], values[4], values[5]);
-  if (!pose->T_world_body.IsFinite()) return LineKind::kUnusable;
+  if (!HasFiniteLength(pose->T_world_body)) return LineKind::kUnusable;
   if (pose->T_world_body.q.norm() < 1e-6) {
     pose->T_world_body.q.setIdentity();
     return LineKind::kWithoutRotation;

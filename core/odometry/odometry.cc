@@ -136,7 +136,7 @@ void Odometry::Step(SegmentCloud cloud) {
   } else {
     Revert(predicted, &window_);
   }
-  Judge(window_, options_.lost, &statistics);
+  Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
   window_.segments.back().flags = statistics.flags;
   Describe(window_, &statistics);
   if (window_.size() >= options_.window.segments) Leave(&statistics);
@@ -267,7 +267,7 @@ void Odometry::SettleFront() {
 void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
   trajectory_.Append(pose);
   attitude_.Add(pose.T_world_body.q);
-  if (on_pose_) on_pose_(pose, options_.covariance_scale * covariance);
+  if (on_pose_) on_pose_(pose, CalibratedCovariance(covariance, motion_prior_.surprise()));
 }
 
 void Odometry::AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end) {

@@ -45,8 +45,9 @@ class Odometry {
     on_window_ = std::move(callback);
   }
   /// Called for every control pose when it leaves the window, with the covariance of its right
-  /// perturbation [rho; theta] (m², m rad, rad²) by the information of its last window, times
-  /// `covariance_scale`. Computed only if this is set.
+  /// perturbation [rho; theta] (m², m rad, rad²): that of the pose relative to the map in view, by
+  /// its last window, calibrated. What the map has drifted since the start is not in it. Computed
+  /// only if this is set.
   void OnPose(std::function<void(const ControlPose&, const Matrix6d& covariance)> callback) {
     on_pose_ = std::move(callback);
   }

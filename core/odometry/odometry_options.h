@@ -41,14 +41,10 @@ struct OdometryOptions {
   SolverOptions solver;
   MarginalizationOptions marginalization;
   LostOptions lost;
-  double covariance_scale = 1.0;
   int threads = 0;
 
   template <typename Describer>
   void Describe(Describer& d) {
-    d(OptionFor::kExperts, "covariance_scale", covariance_scale, Range<double>{1e-6, 1e9},
-      "Multiplies the covariances that are written: the window takes the map for exact and the "
-      "errors of its points for independent, so 1 is optimistic.");
     d(OptionFor::kUsers, "threads", threads, Range<int>{0, 1024},
       "0 takes all cores; no result depends on it. So many also decompress bz2 chunks of a "
       "ROS 1 bag ahead; with 1 a single thread reads beside the estimator.");

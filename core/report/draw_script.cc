@@ -12,10 +12,19 @@
 
 namespace trajlo {
 
+namespace {
+
+std::filesystem::path ScriptsFolder() {
+  if (const char* set = std::getenv("TRAJLO_SCRIPTS")) return set;
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  return program.parent_path().parent_path() / "share/trajlo/scripts";
+}
+
+}  // namespace
+
 std::string RunDrawScript(const std::string& name, const std::filesystem::path& folder) {
-  const char* set = std::getenv("TRAJLO_SCRIPTS");
-  const std::filesystem::path script =
-      std::filesystem::path(set != nullptr ? set : TRAJLO_SCRIPTS_DIR) / name;
+  const std::filesystem::path script = ScriptsFolder() / name;
   std::error_code error;
   if (!std::filesystem::exists(script, error)) return script.string() + " is not there";
 

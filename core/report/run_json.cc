@@ -39,12 +39,13 @@ Json InputJson(const RunSummary& s) {
             {"time_assumed", s.times.assumed},
             {"stamp_fits_nowhere", s.times.misfits},
             {"stamp_repeated", s.times.repeated},
+            {"points_repeated", s.times.stuck},
             {"clock_apart", s.times.apart}}},
           {"clock_steps", s.times.clock_steps},
           {"points",
            {{"received", s.points.received},
             {"kept", s.points.Kept()},
-            {"not_finite", s.points.not_finite},
+            {"not_finite", s.NotFinite()},
             {"too_near", s.points.too_near},
             {"too_far", s.points.too_far},
             {"too_late", s.points.too_late},
@@ -102,7 +103,10 @@ Json ResourcesJson(const RunSummary& s) {
 
 std::string RunJson(const RunSummary& s) {
   const Json json = {
-      {"exit", {{"code", s.exit_code}, {"reason", s.exit_reason}, {"message", s.message}}},
+      {"exit",
+       {{"code", s.exit_code ? Json(*s.exit_code) : Json(nullptr)},
+        {"reason", s.exit_reason},
+        {"message", s.message}}},
       {"versions", VersionsJson()},
       {"command_line", s.command_line},
       {"output", s.output},

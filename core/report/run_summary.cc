@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/run_summary.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trajlo {
+
+std::int64_t RunSummary::NotFinite() const {
+  const auto without_time = static_cast<std::int64_t>(read.points_without_time);
+  // Fewer where whole scans of them were dropped.
+  return std::max<std::int64_t>(points.not_finite - without_time, 0);
+}
 
 double RunSummary::ShareWithWrongTimes() const {
   if (points.received == 0) return 0.0;
@@ -23,6 +30,7 @@ std::string RunSummary::OddStamps() const {
   add(times.assumed, "given an assumed time (the stamps stand still)");
   add(times.misfits, "dropped (their stamps fit nowhere)");
   add(times.repeated, "dropped (repeated)");
+  add(times.stuck, "dropped (the points of a scan before with a new stamp: a driver that hangs)");
   add(times.apart, "left out (their clock does not meet that of the first LiDAR)");
   return text;
 }
@@ -32,10 +40,12 @@ std::string RunSummary::MissingInput() const {
   std::vector<std::string> parts;
   if (read.file_is_cut) parts.push_back("a part of the file is missing or broken");
   if (read.scans_damaged > 0) {
-    parts.push_back(std::to_string(read.scans_damaged) + " scans are damaged");
+    parts.push_back(std::to_string(read.scans_damaged) +
+                    (read.scans_damaged == 1 ? " scan is damaged" : " scans are damaged"));
   }
   if (read.scans_skipped > 0) {
-    parts.push_back(std::to_string(read.scans_skipped) + " scans could not be read at all");
+    parts.push_back(std::to_string(read.scans_skipped) +
+                    (read.scans_skipped == 1 ? " scan" : " scans") + " could not be read at all");
   }
   if (ShareWithWrongTimes() > kSizeableShare) {
     parts.push_back(std::to_string(std::lround(100.0 * ShareWithWrongTimes())) +
@@ -48,6 +58,10 @@ std::string RunSummary::MissingInput() const {
   if (static_cast<double>(times.assumed) > kSizeableShare * scans) {
     parts.push_back("the times of " + std::to_string(times.assumed) + " of " +
                     std::to_string(times.scans) + " scans are assumed");
+  }
+  if (static_cast<double>(times.stuck) > kSizeableShare * scans) {
+    parts.push_back(std::to_string(times.stuck) + " of " + std::to_string(times.scans) +
+                    " scans have the points of a scan before");
   }
   if (times.clocks_may_differ) parts.push_back("the clocks of the LiDARs may differ");
   std::string text;

@@ -17,7 +17,7 @@ namespace trajlo {
 /// All that is said about a run when it is over, in run.json and in the table on the screen.
 struct RunSummary {
   // How it ended. The reason is one word: running (or killed), ok, partial_input, ...
-  int exit_code = 0;
+  std::optional<int> exit_code;  ///< Nothing until it has ended.
   std::string exit_reason = "running";
   std::string message;
   std::vector<std::string> warnings;
@@ -52,6 +52,9 @@ struct RunSummary {
   double p95_ms = 0.0;
   double peak_memory_mb = 0.0;
 
+  /// Points that are not finite in the recording. Those without a possible time come as such
+  /// points, too, and are counted by ReadReport.
+  std::int64_t NotFinite() const;
   /// The share of the points that were dropped because of their times.
   double ShareWithWrongTimes() const;
   /// What became of scans with odd stamps, and of how many: "3 put in order, 1 dropped (...)";
@@ -59,7 +62,7 @@ struct RunSummary {
   std::string OddStamps() const;
   /// What of the input is missing or cannot be relied on, if it is more than a little: exit code 3.
   /// Points count if more than 5 % were dropped because of their times, scans if the times of more
-  /// than 5 % are assumed.
+  /// than 5 % are assumed, or if more than 5 % have the points of others.
   std::string MissingInput() const;
 
   double DataSeconds() const {

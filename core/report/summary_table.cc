@@ -26,11 +26,12 @@ void AddCount(std::int64_t count, const char* what, std::string* text) {
 
 std::string Dropped(const RunSummary& s) {
   std::string text;
-  AddCount(s.points.not_finite, "not finite", &text);
+  AddCount(s.NotFinite(), "not finite", &text);
   AddCount(s.points.too_near, "too near", &text);
   AddCount(s.points.too_far, "too far", &text);
   AddCount(s.points.too_late, "too late", &text);
   AddCount(s.points.wrong_time, "at wrong times", &text);
+  AddCount(static_cast<std::int64_t>(s.read.points_without_time), "without a possible time", &text);
   return text.empty() ? "nothing" : text + " of " + std::to_string(s.points.received) + " points";
 }
 
@@ -85,8 +86,8 @@ std::string SummaryTable(const RunSummary& s) {
     table += Line("warnings", Format("%zu, listed in run.json", s.warnings.size()));
   }
   if (s.lost_at_ns) table += Line("LOST", "at " + FormatSeconds(*s.lost_at_ns) + " s");
-  table += Line("result",
-                s.exit_reason + " (exit code " + std::to_string(s.exit_code) + "), in " + s.output);
+  table += Line("result", s.exit_reason + " (exit code " + std::to_string(s.exit_code.value_or(0)) +
+                              "), in " + s.output);
   return table;
 }
 

@@ -207,8 +207,8 @@ void SetParameter(Scenario* scenario, const std::string& key, const std::string&
       nearest_distance = distance;
     }
   }
-  throw std::invalid_argument("there is no parameter '" + key + "'; the nearest is '" +
-                              nearest->key + "'");
+  throw std::invalid_argument("there is no parameter '" + key + "'; did you mean '" + nearest->key +
+                              "'?");
 }
 
 std::string ParameterText(const Parameter& parameter) {

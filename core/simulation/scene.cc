@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/simulation/scene.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <utility>
+
+#include "core/simulation/embree.h"
 
 namespace trajlo::simulation {
 
@@ -77,9 +77,7 @@ struct Scene::Part {
     query.ray.tfar = static_cast<float>(max_range_m);
     query.ray.mask = 0xffffffffU;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &query);
+    Intersect(scene, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
     const auto& t = mesh.triangles[query.hit.primID];

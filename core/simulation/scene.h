@@ -25,7 +25,7 @@ struct RayHit {
   float reflectivity = 0.0F;
 };
 
-/// A world that rays can be cast into. Embree (version 3) finds the triangle; the distance is then
+/// A world that rays can be cast into. Embree finds the triangle; the distance is then
 /// computed from its plane in double precision, so that it is exact far from the origin as well.
 /// Immutable, and safe to use from many threads.
 class Scene {

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/simulation/simulator.h"
 
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "core/simulation/point_time.h"
 #include "core/simulation/random.h"
+#include "core/simulation/scan_stream.h"
 #include "core/simulation/scenes/scene_builder.h"
 
 namespace trajlo::simulation {
@@ -176,35 +174,8 @@ void Simulator::CorrectMotion(SimulatedScan* simulated) const {
 
 void SimulateScans(const Simulator& simulator, int threads,
                    const std::function<void(const SimulatedScan&)>& consume) {
-  struct Sweep {
-    std::int64_t end_ns;
-    int lidar_id;
-    std::int64_t index;
-  };
-  const Scenario& scenario = simulator.scenario();
-  std::vector<Sweep> sweeps;
-  for (int id = 0; id < static_cast<int>(scenario.rig.size()); ++id) {
-    const LidarConfig& lidar = scenario.rig[static_cast<std::size_t>(id)];
-    const std::int64_t period_ns = MakeSensor(lidar.sensor, lidar.columns).pattern->period_ns();
-    for (std::int64_t i = 0; i < simulator.ScanCount(id); ++i) {
-      sweeps.push_back({ToNs(lidar.phase_s) + (i + 1) * period_ns, id, i});
-    }
-  }
-  std::sort(sweeps.begin(), sweeps.end(), [](const Sweep& a, const Sweep& b) {
-    return std::tie(a.end_ns, a.lidar_id) < std::tie(b.end_ns, b.lidar_id);
-  });
-
-  FaultInjector faults(scenario.faults, scenario.seed, simulator.start_ns());
-  // More threads than processors would only make oneTBB complain.
-  const int processors = tbb::info::default_concurrency();
-  tbb::task_arena arena(threads > 0 ? std::min(threads, processors) : processors);
-  for (const Sweep& sweep : sweeps) {
-    SimulatedScan simulated;
-    arena.execute([&] { simulated = simulator.SimulateScan(sweep.lidar_id, sweep.index); });
-    if (!faults.Apply(&simulated)) continue;
-    consume(simulated);
-    if (faults.Repeats(simulated)) consume(simulated);
-  }
+  ScanStream stream(simulator, threads);
+  for (SimulatedScan simulated; stream.Next(&simulated);) consume(simulated);
 }
 
 void SimulateScans(const Scenario& scenario, int threads,

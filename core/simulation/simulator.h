@@ -50,9 +50,7 @@ class Simulator {
   std::int64_t end_ns_;
 };
 
-/// Simulates a whole recording: all scans of all LiDARs in the order in which their sweeps end,
-/// with the faults applied, one at a time on the calling thread. `threads` <= 0 takes all
-/// processors; the scans do not depend on it.
+/// Simulates a whole recording: every scan of a ScanStream, on the calling thread.
 void SimulateScans(const Simulator& simulator, int threads,
                    const std::function<void(const SimulatedScan&)>& consume);
 void SimulateScans(const Scenario& scenario, int threads,

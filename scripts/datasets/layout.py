@@ -10,6 +10,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+IN_SOURCES = (ROOT / "CMakeLists.txt").is_file()
+PROGRAMS = ROOT / "build" / "apps" if IN_SOURCES else ROOT.parents[1] / "bin"
 
 EXIT_CODES = """Exit codes: 0 everything is there, 1 wrong usage, 2 nothing was found, 3 some is
 missing or unfit (the rest is laid out), 5 a link or file cannot be written."""
@@ -153,16 +155,16 @@ def main(description, items, after=None, remarks=""):
     parser.add_argument("--into", type=pathlib.Path, metavar="DATA",
                         help="the folder of data sets in which links are made "
                              "(scripts/batch --data=DATA); without it files are only checked")
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build",
-                        help="where the project is built")
+    parser.add_argument("--build", type=pathlib.Path, help="where the project is built")
     arguments = parser.parse_args()
     if arguments.downloads is None:
         print(description)
         return 0
     if not arguments.downloads.is_dir():
         parser.error(f"there is no folder {arguments.downloads}")
+    programs = arguments.build / "apps" if arguments.build else PROGRAMS
     try:
-        code = lay_out(items, arguments.downloads, arguments.into, arguments.build / "apps", after)
+        code = lay_out(items, arguments.downloads, arguments.into, programs, after)
     except Unwritable as error:
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 5

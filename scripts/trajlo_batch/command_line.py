@@ -7,7 +7,7 @@ import re
 import signal
 import sys
 
-from trajlo_batch.places import ROOT, Places
+from trajlo_batch.places import BUILD, ROOT, WORK, Places
 from trajlo_batch.yaml_lines import SuiteError
 
 
@@ -35,11 +35,9 @@ def add_work_arguments(parser, run_name):
                         help="cores to use, with --slurm jobs at a time; default: all cores")
     parser.add_argument("--output", type=pathlib.Path, help="default: runs/<name of the file>")
     parser.add_argument("--data", type=pathlib.Path,
-                        default=os.environ.get("TRAJLO_DATASETS", ROOT / "data"),
+                        default=os.environ.get("TRAJLO_DATASETS", WORK / "data"),
                         help="the folder of data sets; default: $TRAJLO_DATASETS, else data/")
-    parser.add_argument("--build", type=pathlib.Path,
-                        default=os.environ.get("TRAJLO_BUILD_DIR", ROOT / "build"),
-                        help="the build to run; default: $TRAJLO_BUILD_DIR, else build/")
+    add_build_argument(parser)
     parser.add_argument("--list", action="store_true", help="show the runs and stop")
     parser.add_argument("--command", metavar=run_name.upper(),
                         help="print how to repeat a run and stop")
@@ -53,9 +51,15 @@ def add_work_arguments(parser, run_name):
     parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for it")
 
 
+def add_build_argument(parser):
+    parser.add_argument("--build", type=pathlib.Path,
+                        default=os.environ.get("TRAJLO_BUILD_DIR", BUILD),
+                        help="the build to run; default: $TRAJLO_BUILD_DIR, else build/")
+
+
 def places_of(arguments, name):
     output = arguments.output or (
-        pathlib.Path(os.environ.get("TRAJLO_RUNS", ROOT / "runs")) / name)
+        pathlib.Path(os.environ.get("TRAJLO_RUNS", WORK / "runs")) / name)
     return Places(arguments.build.resolve(), arguments.data.resolve(), output.resolve())
 
 

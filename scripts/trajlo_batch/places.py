@@ -11,16 +11,21 @@ from trajlo_batch.yaml_lines import SuiteError
 from trajlo_report.files import write_atomically
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# An installation has these scripts in share/trajlo/scripts, the programs in bin/ beside share/, and
+# nothing of the user's: data and results are then below the current folder.
+INSTALLED = not (ROOT / "CMakeLists.txt").is_file()
+BUILD = ROOT.parents[1] if INSTALLED else ROOT / "build"
+WORK = pathlib.Path.cwd() if INSTALLED else ROOT
 
 
 @dataclasses.dataclass(frozen=True)
 class Places:
-    build: pathlib.Path   # holds apps/trajlo_run and the others
+    build: pathlib.Path   # holds apps/trajlo_run and the others, an installation bin/trajlo_run
     data: pathlib.Path    # relative recordings and truths of suites are below it
     output: pathlib.Path
 
     def program(self, name):
-        return self.build / "apps" / name
+        return self.build / ("bin" if INSTALLED else "apps") / name
 
     def find(self, path, base=ROOT):
         """A path of a suite: relative ones are below `base`, and $VARIABLES are filled in."""

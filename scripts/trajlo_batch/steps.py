@@ -20,7 +20,7 @@ from trajlo_report import names
 
 EXIT_REASONS = {0: "ok", 1: "configuration refused", 2: "input unreadable",
                 3: "a part of the input was damaged", 4: "estimator lost",
-                5: "output not writable"}
+                5: "output not writable", 6: "out of memory, or a defect"}
 INTERRUPTED = (130, 143, -signal.SIGINT, -signal.SIGTERM, -signal.SIGHUP)
 TIMEOUT = "timeout"
 PAGE_POINTS = 300_000  # in the 3-D view of a run: a batch has hundreds of pages
@@ -28,6 +28,11 @@ PAGE_POINTS = 300_000  # in the 3-D view of a run: a batch has hundreds of pages
 
 class StepError(Exception):
     """A job cannot do its work; Snakemake will try it again in the next batch."""
+
+
+def mortal(command):
+    """The command, such that it dies with the process that starts it."""
+    return ["setpriv", "--pdeathsig", "KILL", *command]
 
 
 def flags(values):
@@ -51,7 +56,7 @@ def simulate(job_file, folder):
     folder = pathlib.Path(folder)
     beside = folder.with_name(f".{folder.name}.part")
     command = simulate_command(read_json_if(job_file), beside)
-    done = subprocess.run(command, check=False)
+    done = subprocess.run(mortal(command), check=False)
     if done.returncode != 0:
         raise StepError(f"the recording could not be simulated: {shlex.join(command)}")
     kept = folder.parent.parent / "truth"
@@ -139,8 +144,7 @@ def last_message(path):
 def execute(command, log_file, timeout_s):
     """Runs a command that dies with this process; its exit code, negative for a signal."""
     with log_file.open("w") as log:
-        process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], stdout=log,
-                                   stderr=subprocess.STDOUT)
+        process = subprocess.Popen(mortal(command), stdout=log, stderr=subprocess.STDOUT)
         try:
             return process.wait(timeout_s or None)
         except subprocess.TimeoutExpired:
@@ -223,7 +227,6 @@ def evaluate(job_file):
 def draw(status_file):
     """The page of a run."""
     folder = pathlib.Path(status_file).resolve().parent
-    status = read_json_if(status_file)
     (folder / "result").mkdir(exist_ok=True)
     command = [sys.executable, ROOT / "scripts" / "draw_run.py", folder / "result",
                "--output", folder / "page",
@@ -231,5 +234,5 @@ def draw(status_file):
                "--title", f"{names.title(folder.name)} · {folder.parent.name}"]
     if (folder / "evaluation" / "evaluation.json").is_file():
         command += ["--evaluation", folder / "evaluation"]
-    if subprocess.run(command, check=False).returncode != 0:
+    if subprocess.run(mortal(command), check=False).returncode != 0:
         raise StepError(f"no page could be drawn of {folder}")

@@ -45,13 +45,17 @@ _Loader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping
 def load(path):
     """The mapping that a YAML file holds. Throws SuiteError."""
     path = pathlib.Path(path)
+    if path.exists() and not path.is_file():  # A pipe would never end.
+        raise SuiteError(f"{path} is not a file")
     try:
-        text = path.read_text()
+        text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise SuiteError(f"{path} cannot be read: {error.strerror}") from error
-    loader = _Loader(text)
-    loader.name = str(path)
+    except UnicodeDecodeError as error:
+        raise SuiteError(f"{path} is not a text file: byte {error.start} is no UTF-8") from error
     try:
+        loader = _Loader(text)  # Refuses characters that text does not have.
+        loader.name = str(path)
         document = loader.get_single_data()
     except yaml.YAMLError as error:
         raise SuiteError(f"{path} is not YAML: {error}") from error

@@ -6,7 +6,7 @@ import pathlib
 from trajlo_batch import suite
 from trajlo_batch.yaml_lines import SuiteError, check, load
 from trajlo_experiment import designs
-from trajlo_experiment.factors import Factor, number_or_text, read_factor
+from trajlo_experiment.factors import number_or_text, read_factor
 
 EXPERIMENT_KEYS = {"title": str, "question": str, "needs": str, "design": dict, "vary": dict,
                    "center": dict, "marks": dict, "reference": str, "defaults": dict,

@@ -37,13 +37,13 @@ def draw_inliers(axes, run):
 
 
 def draw_eigenvalue(axes, run, degenerate):
-    """The information per point in the weakest direction, and where it counts as degenerate."""
+    """The information in the weakest direction, and where it counts as degenerate."""
     axes.semilogy(run.windows["end_s"] - run.begin,
-                  np.maximum(run.windows["smallest_eigenvalue"], 1e-6), color=theme.STAGES["solve"])
+                  np.maximum(run.windows["smallest_eigenvalue"], 1.0), color=theme.STAGES["solve"])
     if degenerate:
         axes.axhline(degenerate, color=theme.END, lw=0.8, ls="--", label="degenerate below")
         axes.legend(loc="best")
-    axes.set_ylabel("information in the\nweakest direction")
+    axes.set_ylabel("information in the\nweakest direction [1/m²]")
 
 
 def draw_stages(axes, run):

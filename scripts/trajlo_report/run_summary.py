@@ -11,6 +11,7 @@ VERDICTS = {
     3: "The run ended, but a part of the input was damaged.",
     4: "The estimator got lost: do not trust poses from there on.",
     5: "The output could not be written completely.",
+    6: "The run failed.",
     130: "The run was interrupted; what it had done by then is shown.",
 }
 

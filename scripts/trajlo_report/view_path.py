@@ -75,9 +75,9 @@ def quantities(times, positions, windows, estimate):
     if len(windows.get("end_s", ())):
         found.append(Quantity("inliers", "points with a plane", "%", interpolated(
             times, windows["end_s"], 100 * windows["inlier_share"]), "viridis", 0))
-        found.append(Quantity("eigenvalue", "information in the weakest direction", "per point",
+        found.append(Quantity("eigenvalue", "information in the weakest direction", "1/m²",
                               interpolated(times, windows["end_s"], np.maximum(
-                                  windows["smallest_eigenvalue"], 1e-6)), "viridis", 4, True))
+                                  windows["smallest_eigenvalue"], 1.0)), "viridis", 0, True))
     return [item for item in found if np.isfinite(item.values).any()]
 
 

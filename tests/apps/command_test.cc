@@ -4,6 +4,11 @@
 #include <gflags/gflags.h>
 #include <gmock/gmock.h>
 
+#include <csignal>
+#include <new>
+#include <stdexcept>
+
+#include "apps/interrupt.h"
 #include "apps/usage_error.h"
 #include "core/config/config_error.h"
 #include "core/io/errors.h"
@@ -25,14 +30,15 @@ struct Result {
 };
 
 Result RunWith(std::vector<std::string> words, const Body& run) {
-  words.insert(words.begin(), "trajlo_some");
+  words.insert(words.begin(), "command_test");
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
+  // The name of this file: its flags are those of the command.
   const int exit_code =
-      RunCommand({"trajlo_some", "examples\n", run}, static_cast<int>(words.size()), argv.data());
+      RunCommand({"command_test", "examples\n", run}, static_cast<int>(words.size()), argv.data());
   return {exit_code, ::testing::internal::GetCapturedStdout(),
           ::testing::internal::GetCapturedStderr()};
 }
@@ -46,7 +52,7 @@ TEST(RunCommand, HandsOverArgumentsWithoutFlagsAndReturnsTheCode) {
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_TRUE(FLAGS_loud);
   EXPECT_THAT(line.arguments, ElementsAre("a", "b"));
-  EXPECT_THAT(line.words, ElementsAre("trajlo_some", "a", "--loud=true", "b"));
+  EXPECT_THAT(line.words, ElementsAre("command_test", "a", "--loud=true", "b"));
   EXPECT_THROW(RequireNoArguments(line), UsageError);
 }
 
@@ -65,13 +71,42 @@ TEST(RunCommand, SaysWhatWasThrownAndReturnsItsCode) {
   };
   const Result usage = thrown(UsageError("--x: no such thing"));
   EXPECT_EQ(usage.exit_code, 1);
-  EXPECT_THAT(usage.err, AllOf(HasSubstr("trajlo_some: --x: no such thing\n"),
-                               HasSubstr("(trajlo_some --help shows examples)")));
+  EXPECT_THAT(usage.err, AllOf(HasSubstr("command_test: --x: no such thing\n"),
+                               HasSubstr("(command_test --help shows examples)")));
   EXPECT_EQ(thrown(ConfigError("a.yaml:1:1", "unknown key")).exit_code, 1);
   const Result input = thrown(InputError("a.bag", "is no bag", "Look again."));
   EXPECT_EQ(input.exit_code, 2);
-  EXPECT_EQ(input.err, "trajlo_some: a.bag: is no bag\n  Look again.\n");
+  EXPECT_EQ(input.err, "command_test: a.bag: is no bag\n  Look again.\n");
   EXPECT_EQ(thrown(OutputError("out", "disk full")).exit_code, 5);
+  const Result memory = thrown(std::bad_alloc());
+  EXPECT_EQ(memory.exit_code, 6);
+  EXPECT_EQ(memory.err, "command_test: there is not enough memory\n");
+  const Result defect = thrown(std::out_of_range("vector::at"));
+  EXPECT_EQ(defect.exit_code, 6);
+  EXPECT_EQ(defect.err, "command_test: failed: vector::at\n");
+}
+
+TEST(RunCommand, AGracefulCommandHandlesSignalsBeforeItReadsItsWords) {
+  Command command{"command_test", "examples\n", [](const CommandLine&) { return ExitCode::kOk; }};
+  command.ends_gracefully = true;
+  std::string words[] = {"command_test", "--nonsense"};
+  char* argv[] = {words[0].data(), words[1].data(), nullptr};
+  ASSERT_EQ(std::signal(SIGTERM, SIG_DFL), SIG_DFL);
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(RunCommand(command, 2, argv), 1);
+  ::testing::internal::GetCapturedStderr();
+  std::raise(SIGTERM);  // Would end the test.
+  EXPECT_TRUE(HandleInterrupts());
+}
+
+TEST(RunCommand, WordsBehindTwoDashesAreNoFlags) {
+  CommandLine line;
+  const Result result = RunWith({"--", "--help"}, [&](const CommandLine& given) {
+    line = given;
+    return ExitCode::kOk;
+  });
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(line.arguments, ElementsAre("--help"));
 }
 
 }  // namespace

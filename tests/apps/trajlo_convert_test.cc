@@ -47,7 +47,8 @@ TEST_F(TrajloConvert, WrongUsageExitsWithOne) {
   EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--layout=hexagon"}).exit_code, 1);
   EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--compression=zip"}).exit_code, 1);
   EXPECT_EQ(Convert({Path("room"), Path("a"), "--layout=ouster"}).exit_code, 1);
-  EXPECT_EQ(Convert({Path("room"), Path("a.mcap")}).exit_code, 1);
+  EXPECT_EQ(Convert({Path("room"), Path("a.ply")}).exit_code, 1);
+  EXPECT_EQ(Convert({Path("room"), Path("a.db3"), "--compression=lz4"}).exit_code, 1);
   EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--start_s=-1"}).exit_code, 1);
   EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--set=input.unit=s"}).exit_code, 1);
 }
@@ -67,6 +68,38 @@ TEST_F(TrajloConvert, AFolderBecomesABagAndAFolderAgainWithTheSamePoints) {
       ASSERT_EQ(before[i].points[k].t_ns, after[i].points[k].t_ns);
     }
   }
+}
+
+TEST_F(TrajloConvert, ThroughBagsOfAllKindsThePointsStayTheSame) {
+  const std::vector<LidarScan> before = ReadAll(Path("room"));
+  std::string last = "room";
+  for (const char* next : {"a.mcap", "b.bag", "c.db3", "d.mcap", "e.db3", "f.bag", "folder"}) {
+    const Outcome outcome = Convert({Path(last), Path(next)});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    last = next;
+    const std::vector<LidarScan> after = ReadAll(Path(next));
+    ASSERT_EQ(before.size(), after.size()) << next;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      ASSERT_EQ(before[i].stamp_ns, after[i].stamp_ns);
+      ASSERT_EQ(before[i].points.size(), after[i].points.size());
+      for (std::size_t k = 0; k < before[i].points.size(); ++k) {
+        ASSERT_EQ(before[i].points[k].xyz_m, after[i].points[k].xyz_m);
+        ASSERT_EQ(before[i].points[k].t_ns, after[i].points[k].t_ns);
+      }
+    }
+  }
+}
+
+TEST_F(TrajloConvert, ExcerptsAndTopicsHoldBetweenKindsOfBags) {
+  ASSERT_EQ(Convert({Path("room"), Path("a.bag")}).exit_code, 0);
+  ASSERT_EQ(
+      Convert({Path("a.bag"), Path("part.mcap"), "--start_s=0.35", "--duration_s=0.4"}).exit_code,
+      0);
+  EXPECT_EQ(ReadAll(Path("part.mcap")).size(), 4u);
+  const Outcome none = Convert({Path("a.bag"), Path("none.mcap"), "--topics=/none"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("/os_cloud_node/points (sensor_msgs/PointCloud2)"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "none.mcap"));
 }
 
 TEST_F(TrajloConvert, SeveralLidarsGetFoldersOfTheirOwn) {

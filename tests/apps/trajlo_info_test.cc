@@ -61,8 +61,8 @@ TEST(TrajloInfo, TellsTopicsTimesAndTheCommandToUse) {
                     HasSubstr("t uint32 @20"), HasSubstr("stamps mark its end"),
                     HasSubstr("messages were recorded 0.002 s after their stamp"),
                     HasSubstr("begin 37 ms after those of lidar 0"),
-                    HasSubstr("--config=config/datasets/ntu_viral.yaml "
-                              "'--set=input.topics=[\"/os1_cloud_node1/points\", "
+                    HasSubstr("rig.bag -o result -c ntu_viral "
+                              "--set 'input.topics=[\"/os1_cloud_node1/points\", "
                               "\"/os1_cloud_node2/points\"]'")));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the command does when something is wrong: the exit codes that scripts rely on, a message
 // that says what to do, and results that are kept.
+#include <sys/stat.h>
+
 #include <csignal>
 #include <random>
 
@@ -19,7 +21,7 @@ TEST_F(TrajloRunTest, WrongUsageIsOne) {
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     return outcome.err;
   };
-  EXPECT_THAT(error({}), AllOf(HasSubstr("--input is missing"), HasSubstr("--help")));
+  EXPECT_THAT(error({}), AllOf(HasSubstr("name a recording"), HasSubstr("--help")));
   EXPECT_THAT(error({"--input=x"}), HasSubstr("--output is missing"));
   EXPECT_THAT(error({"--input=x", "--output=y", "z"}), HasSubstr("unexpected argument 'z'"));
   EXPECT_THAT(error({"--imput=x"}), HasSubstr("imput"));
@@ -192,6 +194,61 @@ TEST_F(TrajloRunTest, AFullDiskIsFiveWhicheverFileMeetsIt) {
   }
 }
 
+TEST_F(TrajloRunTest, APipeThatNobodyReadsIsFiveAndDoesNotHang) {
+  RoomRecording().Write(input());
+  fs::create_directories(output());
+  ASSERT_EQ(mkfifo(Result("trajectory.tum").c_str(), 0600), 0);
+  const Outcome outcome = Run({"--overwrite"});
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_THAT(outcome.err, HasSubstr("is a pipe that nobody reads"));
+}
+
+TEST_F(TrajloRunTest, TooLittleMemoryIsSixWithASentence) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve more memory than there is";
+#endif
+  RoomRecording().Write(input());
+  int failed = 0;
+  for (const char* kilobytes : {"32000", "40000", "50000", "64000", "80000", "120000"}) {
+    const Outcome outcome = CallProgram(
+        "/bin/bash", {"-c", std::string("ulimit -v ") + kilobytes + "; exec \"$0\" \"$@\"",
+                      TRAJLO_RUN, input(), "-o", output(), "--overwrite"});
+    // 3: too little for some scans only. 127: too little to load the program.
+    EXPECT_THAT(outcome.exit_code, ::testing::AnyOf(0, 3, 6, 127)) << kilobytes << outcome.err;
+    if (outcome.exit_code != 6) continue;
+    ++failed;
+    EXPECT_THAT(outcome.err,
+                ::testing::AnyOf(HasSubstr("there is not enough memory"),
+                                 HasSubstr("no thread could be started"), HasSubstr("failed: ")));
+  }
+  EXPECT_GT(failed, 0);
+}
+
+TEST_F(TrajloRunTest, ScansWithoutTimesWarnUnlessTheyAreDeclaredMotionCorrected) {
+  RoomRecording room;
+  fs::create_directories(temp_ / "in/velodyne");
+  for (int i = 0; i < room.scans; ++i) {
+    std::vector<Eigen::Vector4f> points = room.Scan(i);
+    for (Eigen::Vector4f& point : points) point[3] = 0.5F;  // Of a .bin: the intensity.
+    const std::string name = "in/velodyne/" + std::to_string(100 + i) + ".bin";
+    std::ofstream(temp_ / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(points.data()),
+               static_cast<std::streamsize>(points.size() * sizeof(points[0])));
+  }
+  const Outcome silent = Run();
+  EXPECT_EQ(silent.exit_code, 0) << silent.err;
+  EXPECT_THAT(silent.err, AllOf(HasSubstr("points have no times of their own"),
+                                HasSubstr("input.point_time=none")));
+  EXPECT_THAT(RunJson()["warnings"].dump(), HasSubstr("points have no times"));
+  const Outcome declared = Run({"--overwrite", "--set=input.point_time=none"});
+  EXPECT_EQ(declared.exit_code, 0);
+  EXPECT_EQ(declared.err, "");
+  EXPECT_THAT(declared.out, ::testing::Not(HasSubstr("turned up")));
+  const Outcome kitti = Run({"--overwrite", "--config", "kitti"});
+  EXPECT_EQ(kitti.err, "");
+  EXPECT_THAT(kitti.out, HasSubstr("every ray is turned up by 0.205 degrees"));
+}
+
 TEST_F(TrajloRunTest, ADiskThatFillsUpLaterIsFiveAndKeepsWhatWasWritten) {
   RoomRecording room;
   room.scans = 30;
@@ -254,6 +311,7 @@ TEST_F(InterruptedRunTest, AKilledRunLeavesAReadablePrefixThatSaysSo) {
   const std::string text = ReadFile(Result("trajectory.tum"));
   EXPECT_EQ(text.back(), '\n');
   EXPECT_EQ(RunJson()["exit"]["reason"], "running");
+  EXPECT_TRUE(RunJson()["exit"]["code"].is_null());
   EXPECT_EQ(Run().exit_code, 5);  // Nor is it replaced without being told so.
 }
 

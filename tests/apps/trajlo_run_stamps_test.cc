@@ -264,7 +264,7 @@ TEST_F(StampsTest, ACutFileIsNamedAsSuch) {
   const Outcome outcome = RunAnew();
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("1 scans are damaged"), Not(HasSubstr("could not be read"))));
+              AllOf(HasSubstr("1 scan is damaged"), Not(HasSubstr("could not be read"))));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ using ::testing::HasSubstr;
 TEST_F(TrajloRunTest, HelpTeachesByExample) {
   const Outcome outcome = Call({"--help"});
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("trajlo_run --input=recording --output=result"),
-                                 HasSubstr("--set=window.segments=3")));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("trajlo_run flight.bag -o result"),
+                                 HasSubstr("--set window.segments=3")));
   // The flags of glog and gflags are nobody's business.
   EXPECT_THAT(outcome.out, ::testing::Not(HasSubstr("minloglevel")));
 }

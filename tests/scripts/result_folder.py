@@ -71,5 +71,5 @@ def write_result(folder, seconds=10.0, flags=None, scans=True, map_points=4000,
             "t_s": np.repeat(moments, points_per_moment)}, f"comment begin_s {BEGIN_S:.9f}")
     write_windows(folder / "windows.csv", times, flags or {})
     (folder / "run.json").write_text(json.dumps(run_json(seconds)))
-    (folder / "config.yaml").write_text("lost:\n  degenerate_eigenvalue: 0.002\n")
+    (folder / "config.yaml").write_text("expert:\n  lost:\n    degenerate_sigma_m: 0.1\n")
     return folder

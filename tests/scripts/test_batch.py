@@ -86,6 +86,27 @@ class BatchTest(FolderTest):
         done.log = done.stdout + done.stderr + (log.read_text() if log.is_file() else "")
         return done
 
+    def runs_that_never_end(self):
+        """Says where a run tells that it has begun."""
+        begun = self.folder / "begun"
+        self.prepare_build(wait=f"touch {begun}; exec sleep 100000")
+        return begun
+
+    def start(self, *arguments, stderr=subprocess.DEVNULL):
+        """A batch in the background. When the test ends it is killed, and its folder may go only
+        when nothing that it had started is left to write into it."""
+        process = subprocess.Popen(self.command(*arguments), stdout=subprocess.DEVNULL,
+                                   stderr=stderr, text=True)
+        self.addCleanup(self.wait_until_nothing_is_left)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_until_nothing_is_left(self):
+        """Waits as long as it takes: on a busy machine even killed processes need time to end."""
+        while processes_with(str(self.output)):
+            time.sleep(0.05)
+
     def statuses(self):
         return {path.parent.name + "/" + path.parent.parent.name: json.loads(path.read_text())
                 for path in self.output.glob("*/*/status.json")}
@@ -96,20 +117,15 @@ class BatchTest(FolderTest):
 
     def test_a_killed_batch_goes_on_and_does_not_repeat_what_is_done(self):
         self.prepare_build(wait="sleep 1")
-        process = subprocess.Popen(self.command(SUITE, "-j", "1"), stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-        deadline = time.monotonic() + 120
-        while not self.statuses() and time.monotonic() < deadline and process.poll() is None:
+        process = self.start(SUITE, "-j", "1")
+        while not self.statuses() and process.poll() is None:
             time.sleep(0.02)
-        os.kill(process.pid, signal.SIGKILL)
+        process.kill()
         process.wait()
         before = self.statuses()
         self.assertEqual(len(before), 1, "the batch was to be killed between its two runs")
         # Its jobs die with it: nothing is left that would write into what the next batch does.
-        deadline = time.monotonic() + 10
-        while processes_with(str(self.output)) and time.monotonic() < deadline:
-            time.sleep(0.05)
-        self.assertEqual(processes_with(str(self.output)), [])
+        self.wait_until_nothing_is_left()
         self.assertEqual(self.statuses(), before)
 
         done = self.batch(SUITE, "-j", "2")
@@ -165,27 +181,21 @@ class BatchTest(FolderTest):
         self.assertEqual(again.read_bytes(), first.read_bytes())
 
     def test_two_batches_cannot_work_in_one_folder(self):
-        self.prepare_build(wait="sleep 2")
-        process = subprocess.Popen(self.command(SUITE), stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        deadline = time.monotonic() + 60
-        while not (self.output / "jobs.json").is_file() and time.monotonic() < deadline:
+        begun = self.runs_that_never_end()
+        process = self.start(SUITE)
+        while not begun.exists() and process.poll() is None:
             time.sleep(0.02)
         done = self.batch(SUITE)
         self.assertEqual(done.returncode, 1)
         self.assertIn("another batch is at work", done.stderr)
 
     def test_an_interrupted_batch_ends_at_once_and_says_how_to_go_on(self):
-        self.prepare_build(wait="sleep 60")
-        process = subprocess.Popen(self.command(SUITE), stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 120
-        while not processes_with("sleep\x0060") and time.monotonic() < deadline:
+        begun = self.runs_that_never_end()
+        process = self.start(SUITE, stderr=subprocess.PIPE)
+        while not begun.exists() and process.poll() is None:
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=30)
+        _, errors = process.communicate()
         self.assertEqual(process.returncode, 130)
         self.assertIn("goes on where this one stopped", errors)
         self.assertEqual(self.statuses(), {})

@@ -18,18 +18,15 @@ SIGMAS = [0.02, 0.03, 0.01, 0.004, 0.002, 0.005]
 
 @unittest.skipIf(np is None, "python3-numpy and python3-scipy are not installed")
 class CheckCovarianceTest(FolderTest):
-    def make_run(self, seed, factor, scale=1.0):
+    def make_run(self, seed, factor, place=None):
         """A body that moves at constant speed; its errors squared are `factor` times as large as
-        its covariance says."""
+        its covariance says. The whole estimate is moved to `place`."""
         random = np.random.default_rng(seed)
         mixing = random.normal(size=(6, 6))
         covariance = np.diag(SIGMAS) @ (mixing @ mixing.T + np.eye(6)) @ np.diag(SIGMAS)
         truth, estimate, table = [], [], ["t," + ",".join(f"c{i}" for i in range(21))]
         for i in range(31):
-            # The first pose has no error: it defines the frame.
-            error = np.zeros(6)
-            if i > 0:
-                error = random.multivariate_normal(error, factor * covariance)
+            error = random.multivariate_normal(np.zeros(6), factor * covariance)
             true_t = np.array([0.3 * i, 0.01 * i, 0.0])
             true_r = Rotation.from_rotvec([0.0, 0.0, 0.1 * i])
             r = true_r * Rotation.from_rotvec(-error[3:])
@@ -37,11 +34,12 @@ class CheckCovarianceTest(FolderTest):
             stamp = f"{START_S + i // 10}.{i % 10}00000000"
             truth.append(" ".join([stamp, *map(repr, map(float, [*true_t, *true_r.as_quat()]))]))
             estimate.append(" ".join([stamp, *map(repr, map(float, [*t, *r.as_quat()]))]))
+            if place is not None:
+                r, t = place * r, place.apply(t) + [1.0, 2.0, 3.0]
             upper = (covariance if i else 0.0 * covariance)[np.triu_indices(6)]
             table.append(",".join([stamp, *map(repr, map(float, upper))]))
         self.write(f"{seed}/result/trajectory.tum", "\n".join(estimate) + "\n")
         self.write(f"{seed}/result/covariance.csv", "\n".join(table) + "\n")
-        self.write(f"{seed}/result/config.yaml", f"covariance_scale: {scale}\n")
         self.write(f"{seed}/truth.tum", "\n".join(truth) + "\n")
         return f"{self.folder}/{seed}/result={self.folder}/{seed}/truth.tum"
 
@@ -49,30 +47,36 @@ class CheckCovarianceTest(FolderTest):
         return subprocess.run([SCRIPTS / "check_covariance.py", "--every=0.1", *runs, *more],
                               capture_output=True, text=True, check=False)
 
-    def test_an_optimistic_covariance_gets_the_option_that_mends_it(self):
-        done = self.check([self.make_run(seed, factor=4.0) for seed in range(8)])
+    def factor_of(self, done):
         self.assertEqual(done.returncode, 0, done.stderr)
-        # 8 runs of 30 independent poses: the factor is known to 4 % (one sigma).
-        self.assertAlmostEqual(float(re.search(r"covariance_scale=(\S+)", done.stdout)[1]), 4.0,
-                               delta=0.6)
+        return float(re.search(r"errors are (\S+) times", done.stdout)[1])
+
+    def test_an_optimistic_covariance_is_found_out(self):
+        done = self.check([self.make_run(seed, factor=4.0) for seed in range(8)])
+        # 8 runs of 20 pairs, which share poses: the factor is known to 7 % (one sigma).
+        self.assertAlmostEqual(self.factor_of(done), 4.0, delta=0.8)
         low, high = map(float, re.search(r"times \((\S+) to (\S+)\)", done.stdout).groups())
-        self.assertTrue(3.0 < low < high < 5.0, done.stdout)
+        self.assertTrue(2.5 < low < high < 5.5, done.stdout)
         self.assertIn("it is optimistic", done.stdout)
 
-    def test_the_option_multiplies_the_scale_that_the_runs_had(self):
-        done = self.check([self.make_run(seed, factor=0.1, scale=20.0) for seed in range(8)])
+    def test_a_pessimistic_one_too(self):
+        done = self.check([self.make_run(seed, factor=0.1) for seed in range(8)])
         self.assertIn("it is pessimistic", done.stdout)
-        self.assertAlmostEqual(float(re.search(r"covariance_scale=(\S+)", done.stdout)[1]), 2.0,
-                               delta=0.3)
+        self.assertAlmostEqual(self.factor_of(done), 0.1, delta=0.02)
 
     def test_a_right_covariance_is_called_right(self):
         done = self.check([self.make_run(seed, factor=1.0) for seed in range(8)])
         self.assertIn("it is right", done.stdout)
 
-    def test_runs_of_different_scales_are_not_mixed(self):
-        done = self.check([self.make_run(1, 1.0, scale=1.0), self.make_run(2, 1.0, scale=2.0)])
+    def test_where_the_map_lies_in_the_world_does_not_matter(self):
+        here = self.check([self.make_run(1, 1.0)])
+        there = self.check([self.make_run(1, 1.0, Rotation.from_rotvec([0.3, -0.2, 0.5]))])
+        self.assertAlmostEqual(self.factor_of(here), self.factor_of(there), places=6)
+
+    def test_runs_that_are_too_short_are_refused(self):
+        done = self.check([self.make_run(1, 1.0)], "--apart=5")
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("[1.0, 2.0]", done.stderr)
+        self.assertIn("shorter than --apart", done.stderr)
 
 
 def left_jacobian(theta):

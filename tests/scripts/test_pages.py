@@ -152,9 +152,9 @@ class RunPageTest(FolderTest):
                 "result": {"begin_s": "1700000000.250", "lost_at_s": "1700000003.500"}}
         self.assertEqual(run_summary.verdict(lost), "The estimator got lost 3.2 s after the start: "
                          "do not trust poses from there on.")
-        for exit_, said in (({"code": 4, "reason": "failed", "message": "no memory"},
-                             "do not trust poses from there on. No memory."),
-                            ({"code": 0, "reason": "running", "message": ""}, "did not finish"),
+        for exit_, said in (({"code": 6, "reason": "failed", "message": "no memory"},
+                             "The run failed. No memory."),
+                            ({"code": None, "reason": "running", "message": ""}, "did not finish"),
                             ({"code": 2, "reason": "input_unreadable", "message": "no file"},
                              "The run failed: input_unreadable. No file.")):
             self.assertIn(said, run_summary.verdict({"exit": exit_}))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Suites are read strictly, and those of the project are well-formed."""
+import os
 import unittest
 
 from support import ROOT, FolderTest
@@ -54,6 +55,20 @@ class SuiteTest(FolderTest):
         plain = suite.configurations[0]
         self.assertEqual([item.name for item in suite.sequences if plain.takes(item)],
                          ["hall_os1_16x2-seed1", "hall_os1_16x2-seed2"])
+
+    def test_what_is_no_text_is_refused_with_a_sentence(self):
+        for name, content in (("bytes.yaml", b"\xff\xfe\x00\x01"), ("control.yaml", b"a: \x00\x01"),
+                              ("program.yaml", b"\x7fELF\x02\x01\x01")):
+            path = self.folder / name
+            path.write_bytes(content)
+            with self.assertRaises(SuiteError) as caught:
+                read_suite(path)
+            self.assertIn(name, str(caught.exception))
+        os.mkfifo(self.folder / "pipe.yaml")
+        for path in (self.folder / "pipe.yaml", self.folder, "/dev/zero"):
+            with self.assertRaises(SuiteError) as caught:
+                read_suite(path)
+            self.assertIn("is not a file", str(caught.exception))
 
     def test_an_unknown_key_names_its_line_and_the_nearest_key(self):
         self.refuse(SMALL.replace("seeds", "seed"), "small.yaml:4", "seed", "mean seeds?")

@@ -49,6 +49,15 @@ void RemoveScans(const fs::path& folder) {
   }
 }
 
+void PrepareScanFolder(const fs::path& folder, IfExists if_exists) {
+  std::error_code error;
+  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
+  if (!fs::is_directory(folder, error) || if_exists == IfExists::kFail) {
+    throw OutputError(folder, "is there already; choose another folder or add --overwrite");
+  }
+  RemoveScans(folder);
+}
+
 std::int64_t SweepStartOf(const LidarScan& scan) {
   if (!scan.has_point_times || scan.points.empty()) return scan.stamp_ns;
   const auto [first, last] =

@@ -34,6 +34,10 @@ class PcdFolderWriter {
 /// Removes what earlier PcdFolderWriters left in a folder and in its subfolders lidar0, lidar1, ...
 void RemoveScans(const std::filesystem::path& folder);
 
+/// Makes sure that nothing is lost, and that no scan of an older recording stays behind: a folder
+/// that is not empty throws OutputError, or loses its scans if they may be replaced.
+void PrepareScanFolder(const std::filesystem::path& folder, IfExists if_exists);
+
 /// What the times of a scan's points count from when it is written: the stamp where that marks the
 /// start of the sweep, else the first point.
 std::int64_t SweepStartOf(const LidarScan& scan);

@@ -41,18 +41,18 @@ void ScanBagWriter::WriteScan(CloudLayout layout, const std::string& topic,
                               const LidarScan& scan) {
   std::string message;
   try {
-    message =
-        WriteCloud(layout, Header(topic, frame_id, times.stamp_ns), times.sweep_start_ns, scan);
+    message = WriteCloud(layout, Header(topic, frame_id, times.stamp_ns), times.sweep_start_ns,
+                         scan, bag_->encoding());
   } catch (const std::invalid_argument& error) {
     throw OutputError(topic, error.what());
   }
-  bag_.Write(topic, DescriptionOf(layout), times.recorded_ns, message);
+  bag_->Write({topic, DescriptionOf(layout)}, times.recorded_ns, message);
 }
 
 void ScanBagWriter::WritePose(const std::string& topic, std::int64_t t_ns,
                               const SE3& T_world_body) {
-  bag_.Write(topic, PoseStampedDescription(), t_ns,
-             WritePoseStamped(Header(topic, "world", t_ns), T_world_body));
+  bag_->Write({topic, PoseStampedDescription()}, t_ns,
+              WritePoseStamped(Header(topic, "world", t_ns), T_world_body, bag_->encoding()));
 }
 
 }  // namespace trajlo

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/io/messages/message_writer.h"
 #include "core/io/ros1/ros1_bag_writer.h"
@@ -23,11 +25,13 @@ std::optional<BagCompression> ParseBagCompression(std::string_view name);
 /// /velodyne_points, /livox/lidar, ...
 std::string TopicOf(CloudLayout layout, std::size_t lidar, std::size_t lidars);
 
-/// Writes scans and poses into a ROS 1 bag. Members throw OutputError.
+/// Writes scans and poses into a bag. Members throw OutputError.
 class ScanBagWriter {
  public:
+  explicit ScanBagWriter(std::unique_ptr<BagWriter> bag) : bag_(std::move(bag)) {}
+  /// Of ROS 1.
   ScanBagWriter(const std::filesystem::path& path, const Ros1BagOptions& options)
-      : bag_(path, options) {}
+      : bag_(std::make_unique<Ros1BagWriter>(path, options)) {}
 
   /// When a scan's message is stamped and recorded, and what its points' times count from.
   struct Times {
@@ -40,13 +44,13 @@ class ScanBagWriter {
                  const Times& times, const LidarScan& scan);
   /// Stamped and recorded at `t_ns`.
   void WritePose(const std::string& topic, std::int64_t t_ns, const SE3& T_world_body);
-  void Close() { bag_.Close(); }
+  void Close() { bag_->Close(); }
 
  private:
   MessageHeader Header(const std::string& topic, const std::string& frame_id,
                        std::int64_t stamp_ns);
 
-  Ros1BagWriter bag_;
+  std::unique_ptr<BagWriter> bag_;
   std::map<std::string, std::uint32_t> messages_of_topic_;
 };
 

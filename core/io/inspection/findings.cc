@@ -28,10 +28,6 @@ constexpr std::size_t kFewReturns = 500;
 void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings) {
   if (!cloud.time_problem.empty()) {
     findings->push_back("trajlo_run will refuse: " + cloud.time_problem);
-  } else if (!cloud.convention.HasPointTimes()) {
-    findings->push_back(
-        "points have no times of their own: right for motion-corrected scans only, others blur "
-        "with every turn");
   }
   if (!cloud.convention.doubt.empty()) findings->push_back(cloud.convention.doubt);
   if (cloud.stamp_is_recorded) {

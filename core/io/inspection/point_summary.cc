@@ -38,6 +38,11 @@ void PointCounter::Add(const PointTable& table, const LidarScan& scan) {
     summary_.range_max_m = std::max(summary_.range_max_m, range_m);
     ++range_histogram_[static_cast<std::size_t>(
         std::min(100.0 * range_m, static_cast<double>(kRangeBins - 1)))];
+    const double elevation_deg =
+        std::asin(std::clamp(static_cast<double>(point.xyz_m.z()) / range_m, -1.0, 1.0)) * 180.0 /
+        M_PI;
+    ++elevation_histogram_[static_cast<std::size_t>(
+        std::min(10.0 * (elevation_deg + 90.0), static_cast<double>(kElevationBins - 1)))];
   }
   const Column* rings = FindRings(table);
   if (rings == nullptr) return;
@@ -48,17 +53,25 @@ void PointCounter::Add(const PointTable& table, const LidarScan& scan) {
   });
 }
 
-double PointCounter::RangeQuantile(double share) const {
+double PointCounter::QuantileBin(const std::vector<std::uint64_t>& histogram, double share) const {
   const auto returns = static_cast<double>(summary_.Returns());
   double sum = 0.0;
-  for (std::size_t bin = 0; bin < kRangeBins; ++bin) {
-    sum += static_cast<double>(range_histogram_[bin]);
-    if (sum > 0.0 && sum >= share * returns) {
-      const double middle_m = 0.01 * (static_cast<double>(bin) + 0.5);
-      return std::clamp(middle_m, summary_.range_min_m, summary_.range_max_m);
-    }
+  for (std::size_t bin = 0; bin < histogram.size(); ++bin) {
+    sum += static_cast<double>(histogram[bin]);
+    if (sum > 0.0 && sum >= share * returns) return static_cast<double>(bin);
   }
   return 0.0;
+}
+
+double PointCounter::RangeQuantile(double share) const {
+  if (summary_.Returns() == 0) return 0.0;
+  const double middle_m = 0.01 * (QuantileBin(range_histogram_, share) + 0.5);
+  return std::clamp(middle_m, summary_.range_min_m, summary_.range_max_m);
+}
+
+double PointCounter::ElevationQuantile(double share) const {
+  if (summary_.Returns() == 0) return 0.0;
+  return 0.1 * (QuantileBin(elevation_histogram_, share) + 0.5) - 90.0;
 }
 
 PointSummary PointCounter::Summarise() const {
@@ -72,6 +85,8 @@ PointSummary PointCounter::Summarise() const {
   }
   summary.range_median_m = RangeQuantile(0.5);
   summary.range_99_m = RangeQuantile(0.99);
+  summary.elevation_1_deg = ElevationQuantile(0.01);
+  summary.elevation_99_deg = ElevationQuantile(0.99);
   if (has_rings_) {
     PointSummary::Rings rings;
     for (std::uint32_t ring = 0; ring < rings_.size(); ++ring) {

@@ -24,6 +24,9 @@ struct PointSummary {
   std::size_t empty_messages = 0;
   /// Ranges of the returns, m; zeros if there are none. Median and 99 % are good to 1 cm.
   double range_min_m = 0.0, range_median_m = 0.0, range_99_m = 0.0, range_max_m = 0.0;
+  /// Angles of the returns above the x-y plane of the LiDAR: 1 % are lower, and 1 % are higher;
+  /// good to 0.1 degrees. Zeros if there are none.
+  double elevation_1_deg = 0.0, elevation_99_deg = 0.0;
   /// The column that says which laser measured a point.
   struct Rings {
     std::size_t distinct = 0;
@@ -42,12 +45,18 @@ class PointCounter {
  private:
   /// Of 1 cm, the last for all that is farther.
   static constexpr std::size_t kRangeBins = 100'000;
+  /// Of 0.1 degrees, from straight down to straight up.
+  static constexpr std::size_t kElevationBins = 1'800;
 
+  /// The bin that the returns reach with this share of them, counted from the first.
+  double QuantileBin(const std::vector<std::uint64_t>& histogram, double share) const;
   double RangeQuantile(double share) const;
+  double ElevationQuantile(double share) const;
 
   PointSummary summary_;
   std::vector<std::size_t> points_per_message_;
   std::vector<std::uint64_t> range_histogram_ = std::vector<std::uint64_t>(kRangeBins);
+  std::vector<std::uint64_t> elevation_histogram_ = std::vector<std::uint64_t>(kElevationBins);
   bool has_rings_ = false;
   std::vector<bool> rings_ = std::vector<bool>(65'536);
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 namespace trajlo {
 namespace {
@@ -37,9 +38,23 @@ bool Contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
+/// KITTI keeps its scans in velodyne/ or velodyne_points/data/. By its calibration the rays of its
+/// HDL-64E end at -23.7 degrees, others of that model at -24.8: the wrong angles that the
+/// correction in the config is for.
+bool IsLikeKitti(const CloudInspection& cloud) {
+  if (cloud.type != ".bin files") return false;
+  const std::filesystem::path folder(cloud.topic);
+  const std::filesystem::path parent = folder.parent_path().filename();
+  const bool named = folder.filename() == "velodyne" ||
+                     (folder.filename() == "data" && parent == "velodyne_points");
+  const PointSummary& points = cloud.points;
+  return named && points.elevation_1_deg > -24.2 && points.elevation_1_deg < -22.0 &&
+         points.elevation_99_deg > 0.0 && points.elevation_99_deg < 4.5;
+}
+
 /// The config of a LiDAR, by what writes such points; empty if nothing is typical.
 std::string ConfigOf(const CloudInspection& cloud) {
-  if (cloud.type == ".bin files") return "kitti";
+  if (IsLikeKitti(cloud)) return "kitti";
   if (HasField(cloud, "offset_time", "") || Contains(cloud.topic, "livox")) return "livox";
   if (HasField(cloud, "timestamp", "float64")) return "hesai";
   if (Contains(cloud.type, "packets")) return Contains(cloud.type, "OS-") ? "ouster" : "velodyne";
@@ -105,7 +120,24 @@ void AddExtrinsicRemarks(const std::vector<CloudInspection>& clouds, bool is_fol
       "(--config=...,rig.yaml)");
   const std::string& first = clouds.front().topic;
   advice->remarks.push_back("to run on one LiDAR: " +
-                            (is_folder ? "--input=" + first : "--set=input.topics=" + first));
+                            (is_folder ? "trajlo_run " + first : "--set input.topics=" + first));
+}
+
+/// What there is to know about scans without times, and about the config that is for such.
+void AddTimeRemarks(const CloudInspection& cloud, const std::string& config, RunAdvice* advice) {
+  if (!cloud.time_problem.empty()) {
+    advice->remarks.push_back("say how the point times of " + cloud.topic +
+                              " are meant, or the command will be refused");
+  } else if (config == "kitti") {
+    advice->remarks.push_back(
+        "folder and field of view are those of KITTI; the configuration takes the scans for motion-"
+        "corrected and turns every ray up by 0.205 degrees, which is right for KITTI's own "
+        "recordings only (--set sensor.vertical_correction_deg=0)");
+  } else if (!cloud.convention.HasPointTimes()) {
+    advice->remarks.push_back(
+        "the points have no times; if the scans are motion-corrected, add --set "
+        "input.point_time=none,window.segments=3");
+  }
 }
 
 }  // namespace
@@ -119,8 +151,7 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
   }
   if (clouds.empty()) return advice;
   const KnownDataset* dataset = FindDataset(clouds);
-  const std::string config = dataset != nullptr ? dataset->config : ConfigOf(clouds.front());
-  if (!config.empty()) advice.config = "config/datasets/" + config + ".yaml";
+  advice.config = dataset != nullptr ? dataset->config : ConfigOf(clouds.front());
   std::vector<std::string> topics;
   for (const CloudInspection& cloud : clouds) topics.push_back(cloud.topic);
   if (dataset != nullptr) topics = dataset->topics;
@@ -142,22 +173,20 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
         "stamps of this dataset mark the end of the sweep, but by the evidence these mark its "
         "start: check input.stamp_at");
   }
-  advice.command = "trajlo_run " + Quoted("--input=" + recording.path) + " --output=result";
+  const bool is_like_flag = !recording.path.empty() && recording.path.front() == '-';
+  advice.command =
+      "trajlo_run " + Quoted((is_like_flag ? "./" : "") + recording.path) + " -o result";
   std::string configs = advice.config;
   if (!recording.rig_config.empty()) {
     configs += (configs.empty() ? "" : ",") + recording.rig_config;
   }
-  if (!configs.empty()) advice.command += " " + Quoted("--config=" + configs);
-  if (!settings.empty()) advice.command += " " + Quoted("--set=" + settings);
+  if (!configs.empty()) advice.command += " -c " + Quoted(configs);
+  if (!settings.empty()) advice.command += " --set " + Quoted(settings);
 
   const bool placed =
       !recording.rig_config.empty() || (dataset != nullptr && dataset->has_extrinsics);
   if (!placed) AddExtrinsicRemarks(clouds, is_folder, &advice);
-  for (const CloudInspection& cloud : clouds) {
-    if (cloud.time_problem.empty()) continue;
-    advice.remarks.push_back("say how the point times of " + cloud.topic +
-                             " are meant, or the command will be refused");
-  }
+  for (const CloudInspection& cloud : clouds) AddTimeRemarks(cloud, advice.config, &advice);
   return advice;
 }
 

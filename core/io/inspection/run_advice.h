@@ -12,7 +12,7 @@ namespace trajlo {
 struct RunAdvice {
   /// The whole command for a shell; empty if the recording has no clouds.
   std::string command;
-  /// Of config/datasets, the file that is closest; empty if none is.
+  /// The name of the configuration that is closest, as `--config` takes it; empty if none is.
   std::string config;
   /// What the command does not know, a sentence each.
   std::vector<std::string> remarks;

@@ -16,29 +16,10 @@ namespace {
 enum PointFieldType : std::uint8_t { kFieldUint16 = 4, kFieldUint32 = 6, kFieldFloat32 = 7 };
 
 struct PointField {
-  const char* name;
+  std::string name;
   std::uint32_t offset;
   PointFieldType type;
 };
-
-template <typename T>
-void Append(std::string* out, T value) {
-  char bytes[sizeof(T)];
-  std::memcpy(bytes, &value, sizeof(T));
-  out->append(bytes, sizeof(T));
-}
-
-void AppendString(std::string* out, std::string_view text) {
-  Append(out, static_cast<std::uint32_t>(text.size()));
-  out->append(text);
-}
-
-void AppendHeader(std::string* out, const MessageHeader& header) {
-  Append(out, header.seq);
-  Append(out, static_cast<std::uint32_t>(header.stamp_ns / 1'000'000'000));
-  Append(out, static_cast<std::uint32_t>(header.stamp_ns % 1'000'000'000));
-  AppendString(out, header.frame_id);
-}
 
 template <typename T>
 void Put(char* point, std::size_t offset, T value) {
@@ -68,42 +49,46 @@ std::uint32_t OffsetNs(const LidarPoint& point, std::int64_t sweep_start_ns) {
 
 /// `put(bytes, point)` writes one point over zeros.
 template <typename Putter>
-void AppendPoints(std::string* out, std::size_t step, const LidarScan& scan, Putter&& put) {
-  const std::size_t begin = out->size();
-  out->resize(begin + step * scan.points.size());
-  char* at = out->data() + begin;
+void PutPoints(std::size_t step, const LidarScan& scan, Putter&& put, WireWriter* out) {
+  char* at = out->Extend(step * scan.points.size());
   for (const LidarPoint& point : scan.points) {
     put(at, point);
     at += step;
   }
 }
 
+/// All of a PointCloud2 up to the points, which follow.
+void PutCloudHead(const MessageHeader& header, const std::vector<PointField>& fields,
+                  std::size_t point_step, std::size_t count, WireWriter* out) {
+  const auto n = static_cast<std::uint32_t>(count);
+  const auto step = static_cast<std::uint32_t>(point_step);
+  PutHeader(header, out);
+  out->Put(std::uint32_t{1});  // height
+  out->Put(n);
+  out->Put(static_cast<std::uint32_t>(fields.size()));
+  for (const PointField& field : fields) {
+    out->PutString(field.name).Put(field.offset).Put(static_cast<std::uint8_t>(field.type));
+    out->Put(std::uint32_t{1});
+  }
+  out->Put(std::uint8_t{0});  // is_bigendian
+  out->Put(step);
+  out->Put(step * n);  // row_step
+  out->Put(step * n);  // size of the data
+}
+
 template <typename Putter>
 std::string WritePointCloud2(const MessageHeader& header, const std::vector<PointField>& fields,
-                             std::uint32_t point_step, const LidarScan& scan, Putter&& put) {
-  const auto n = static_cast<std::uint32_t>(scan.points.size());
-  std::string out;
-  AppendHeader(&out, header);
-  Append(&out, std::uint32_t{1});  // height
-  Append(&out, n);
-  Append(&out, static_cast<std::uint32_t>(fields.size()));
-  for (const PointField& field : fields) {
-    AppendString(&out, field.name);
-    Append(&out, field.offset);
-    Append(&out, static_cast<std::uint8_t>(field.type));
-    Append(&out, std::uint32_t{1});
-  }
-  Append(&out, std::uint8_t{0});  // is_bigendian
-  Append(&out, point_step);
-  Append(&out, point_step * n);  // row_step
-  Append(&out, point_step * n);  // size of the data
-  AppendPoints(&out, point_step, scan, put);
-  Append(&out, std::uint8_t{0});  // is_dense: there may be NaN
-  return out;
+                             std::size_t point_step, const LidarScan& scan, Encoding encoding,
+                             Putter&& put) {
+  WireWriter out(encoding);
+  PutCloudHead(header, fields, point_step, scan.points.size(), &out);
+  PutPoints(point_step, scan, put, &out);
+  out.Put(std::uint8_t{0});  // is_dense: there may be NaN
+  return out.Take();
 }
 
 std::string WriteOuster(const MessageHeader& header, std::int64_t sweep_start_ns,
-                        const LidarScan& scan) {
+                        const LidarScan& scan, Encoding encoding) {
   return WritePointCloud2(header,
                           {{"x", 0, kFieldFloat32},
                            {"y", 4, kFieldFloat32},
@@ -114,7 +99,7 @@ std::string WriteOuster(const MessageHeader& header, std::int64_t sweep_start_ns
                            {"ring", 26, kFieldUint16},
                            {"ambient", 28, kFieldUint16},
                            {"range", 32, kFieldUint32}},
-                          48, scan, [&](char* out, const LidarPoint& point) {
+                          48, scan, encoding, [&](char* out, const LidarPoint& point) {
                             PutXyz(out, 0, point);
                             Put(out, 16, point.intensity);
                             Put(out, 20, OffsetNs(point, sweep_start_ns));
@@ -125,7 +110,7 @@ std::string WriteOuster(const MessageHeader& header, std::int64_t sweep_start_ns
 }
 
 std::string WriteVelodyne(const MessageHeader& header, std::int64_t sweep_start_ns,
-                          const LidarScan& scan) {
+                          const LidarScan& scan, Encoding encoding) {
   return WritePointCloud2(
       header,
       {{"x", 0, kFieldFloat32},
@@ -134,7 +119,7 @@ std::string WriteVelodyne(const MessageHeader& header, std::int64_t sweep_start_
        {"intensity", 12, kFieldFloat32},
        {"ring", 16, kFieldUint16},
        {"time", 18, kFieldFloat32}},
-      22, scan, [&](char* out, const LidarPoint& point) {
+      22, scan, encoding, [&](char* out, const LidarPoint& point) {
         PutXyz(out, 0, point);
         Put(out, 12, point.intensity);
         Put(out, 18, static_cast<float>(1e-9 * static_cast<double>(point.t_ns - sweep_start_ns)));
@@ -142,45 +127,85 @@ std::string WriteVelodyne(const MessageHeader& header, std::int64_t sweep_start_
 }
 
 std::string WriteLivox(const MessageHeader& header, std::int64_t sweep_start_ns,
-                       const LidarScan& scan) {
+                       const LidarScan& scan, Encoding encoding) {
   constexpr char kNormalPoint = 0x10;  // The tag of a single return that is no noise.
   const auto n = static_cast<std::uint32_t>(scan.points.size());
-  std::string out;
-  AppendHeader(&out, header);
-  Append(&out, static_cast<std::uint64_t>(sweep_start_ns));  // timebase
-  Append(&out, n);
-  out.append(4, '\0');  // lidar_id and three reserved bytes
-  Append(&out, n);
-  AppendPoints(&out, 19, scan, [&](char* at, const LidarPoint& point) {
-    Put(at, 0, OffsetNs(point, sweep_start_ns));
-    PutXyz(at, 4, point);
-    Put(at, 16, Rounded<std::uint8_t>(point.intensity));
-    Put(at, 17, kNormalPoint);
-  });
-  return out;
+  WireWriter out(encoding);
+  PutHeader(header, &out);
+  out.Put(static_cast<std::uint64_t>(sweep_start_ns));  // timebase
+  out.Put(n);
+  out.Extend(4);  // lidar_id and three reserved bytes
+  out.Put(n);
+  // In CDR a point that is not the last one is filled up to a multiple of four.
+  const bool is_cdr = encoding == Encoding::kCdr;
+  const std::size_t step = is_cdr ? 20 : 19;
+  const std::size_t beyond = is_cdr && n > 0 ? 1 : 0;
+  PutPoints(
+      step, scan,
+      [&](char* at, const LidarPoint& point) {
+        Put(at, 0, OffsetNs(point, sweep_start_ns));
+        PutXyz(at, 4, point);
+        Put(at, 16, Rounded<std::uint8_t>(point.intensity));
+        Put(at, 17, kNormalPoint);
+      },
+      &out);
+  std::string bytes = out.Take();
+  bytes.resize(bytes.size() - beyond);
+  return bytes;
 }
 
 }  // namespace
 
+void PutHeader(const MessageHeader& header, WireWriter* out) {
+  if (!out->is_cdr()) out->Put(header.seq);
+  out->Put(static_cast<std::uint32_t>(header.stamp_ns / 1'000'000'000));
+  out->Put(static_cast<std::uint32_t>(header.stamp_ns % 1'000'000'000));
+  out->PutString(header.frame_id);
+}
+
+void PutPose(const SE3& pose, WireWriter* out) {
+  for (int i = 0; i < 3; ++i) out->Put(pose.t[i]);
+  for (int i = 0; i < 4; ++i) out->Put(pose.q.coeffs()[i]);  // x, y, z, w
+}
+
+const MessageDescription& DescriptionOf(CloudLayout layout) {
+  return layout == CloudLayout::kLivox ? LivoxCustomMsgDescription() : PointCloud2Description();
+}
+
 std::string WriteCloud(CloudLayout layout, const MessageHeader& header, std::int64_t sweep_start_ns,
-                       const LidarScan& scan) {
+                       const LidarScan& scan, Encoding encoding) {
   switch (layout) {
     case CloudLayout::kOuster:
-      return WriteOuster(header, sweep_start_ns, scan);
+      return WriteOuster(header, sweep_start_ns, scan, encoding);
     case CloudLayout::kVelodyne:
-      return WriteVelodyne(header, sweep_start_ns, scan);
+      return WriteVelodyne(header, sweep_start_ns, scan, encoding);
     case CloudLayout::kLivox:
-      return WriteLivox(header, sweep_start_ns, scan);
+      return WriteLivox(header, sweep_start_ns, scan, encoding);
   }
   throw std::invalid_argument("unknown layout of point clouds");
 }
 
-std::string WritePoseStamped(const MessageHeader& header, const SE3& T_world_body) {
-  std::string out;
-  AppendHeader(&out, header);
-  for (int i = 0; i < 3; ++i) Append(&out, T_world_body.t[i]);
-  for (int i = 0; i < 4; ++i) Append(&out, T_world_body.q.coeffs()[i]);  // x, y, z, w
-  return out;
+std::string WriteFloatCloud(const MessageHeader& header, const std::vector<std::string>& fields,
+                            const std::vector<float>& values, Encoding encoding) {
+  std::vector<PointField> float_fields;
+  for (const std::string& name : fields) {
+    const auto offset = static_cast<std::uint32_t>(sizeof(float) * float_fields.size());
+    float_fields.push_back({name, offset, kFieldFloat32});
+  }
+  WireWriter out(encoding);
+  PutCloudHead(header, float_fields, sizeof(float) * fields.size(), values.size() / fields.size(),
+               &out);
+  out.PutBytes({reinterpret_cast<const char*>(values.data()), sizeof(float) * values.size()});
+  out.Put(std::uint8_t{1});  // is_dense
+  return out.Take();
+}
+
+std::string WritePoseStamped(const MessageHeader& header, const SE3& T_world_body,
+                             Encoding encoding) {
+  WireWriter out(encoding);
+  PutHeader(header, &out);
+  PutPose(T_world_body, &out);
+  return out.Take();
 }
 
 }  // namespace trajlo

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "core/io/messages/message_description.h"
 #include "core/io/messages/message_header.h"
+#include "core/io/messages/wire_writer.h"
 #include "core/odometry/sensing/lidar_scan.h"
 #include "manifolds/se3.h"
 
@@ -22,25 +25,28 @@ enum class CloudLayout {
   kLivox
 };
 
-/// What a ROS 1 bag says about a connection besides its topic.
-struct MessageDescription {
-  const char* type;
-  const char* md5sum;
-  const char* definition;
-};
+/// std_msgs/Header, with which stamped messages begin.
+void PutHeader(const MessageHeader& header, WireWriter* out);
+/// geometry_msgs/Pose and geometry_msgs/Transform alike: x y z, then the quaternion x y z w.
+void PutPose(const SE3& pose, WireWriter* out);
 
 const MessageDescription& DescriptionOf(CloudLayout layout);
-const MessageDescription& PoseStampedDescription();
 
-/// Serialises a scan in ROS 1's encoding. Point times count from `sweep_start_ns`; the header's
+/// Serialises a scan. Point times count from `sweep_start_ns`; the header's
 /// stamp may be another time, as with drivers that stamp the end of the sweep. Positions and
 /// (except for Livox) intensities keep all bits, also those of NaN; the scan does not know rings
 /// and ambient light, which become 0. Throws std::invalid_argument if an Ouster's or Livox's time
 /// does not fit: before the sweep's start or more than 4.29 s behind it.
 std::string WriteCloud(CloudLayout layout, const MessageHeader& header, std::int64_t sweep_start_ns,
-                       const LidarScan& scan);
+                       const LidarScan& scan, Encoding encoding = Encoding::kRos1);
 
-/// geometry_msgs/PoseStamped in ROS 1's encoding.
-std::string WritePoseStamped(const MessageHeader& header, const SE3& T_world_body);
+/// sensor_msgs/PointCloud2 whose fields are all float32: `values` are those of the first point,
+/// then those of the second, ...
+std::string WriteFloatCloud(const MessageHeader& header, const std::vector<std::string>& fields,
+                            const std::vector<float>& values, Encoding encoding);
+
+/// geometry_msgs/PoseStamped.
+std::string WritePoseStamped(const MessageHeader& header, const SE3& T_world_body,
+                             Encoding encoding = Encoding::kRos1);
 
 }  // namespace trajlo

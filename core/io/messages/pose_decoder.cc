@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/io/messages/pose_decoder.h"
 
+#include "core/io/finite_pose.h"
 #include "core/io/messages/message_header.h"
 #include "core/io/messages/wire_reader.h"
 
@@ -44,7 +45,7 @@ std::optional<StampedPose> DecodePose(std::string_view type, Encoding encoding,
     // x, y, z, w, as Eigen stores them.
     for (int i = 0; i < 4; ++i) pose.T_world_body.q.coeffs()[i] = reader.Read<double>();
   }
-  if (!reader.ok() || !pose.T_world_body.IsFinite()) return {};
+  if (!reader.ok() || !HasFiniteLength(pose.T_world_body)) return {};
   // rospy's default, and so what a total station sends that knows no rotation.
   if (pose.T_world_body.q.norm() < 1e-9) pose.T_world_body.q.setIdentity();
   pose.T_world_body.q.normalize();

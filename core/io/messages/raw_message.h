@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/io/file_bytes.h"
+#include "core/io/messages/message_description.h"
 
 namespace trajlo {
 
@@ -23,6 +24,11 @@ struct Topic {
   std::uint64_t messages = 0;
   /// What else is known of it, to be printed: of sensors' packets how their times are understood.
   std::string remark{};
+  /// What the bag says of the messages' interface, of ROS 2's qualities of service, and whether who
+  /// comes late gets the last message all the same: for copies.
+  MessageDescription interface {};
+  std::string qos{};
+  bool is_latched = false;
 };
 
 /// A message as the bag holds it.

@@ -208,7 +208,8 @@ class Surveyor {
     } else if (!set_.failures.empty()) {
       text += "no usable metadata: " + set_.failures;
     } else {
-      text += "no metadata: " + own.string() + " is sought, or the only .json beside it";
+      text +=
+          "no metadata: " + own.string() + " was looked for, or a single .json beside the capture";
     }
     return text + "; give the sensor's metadata file";
   }

@@ -98,7 +98,7 @@ class Entries {
 std::size_t ColumnsOfMode(const Entries& entries, const std::string& mode) {
   const std::size_t columns = std::strtoul(mode.c_str(), nullptr, 10);
   if (columns == 0 || columns > kMostColumns || mode.find('x') == std::string::npos) {
-    entries.Fail("the lidar_mode is \"" + mode + "\"", "A mode like 1024x10 is sought.");
+    entries.Fail("the lidar_mode is \"" + mode + "\"", "Expected a mode such as 1024x10.");
   }
   return columns;
 }

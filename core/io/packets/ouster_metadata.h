@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// What the points need of an Ouster sensor's metadata. The file is the one that the sensor serves

@@ -96,9 +96,10 @@ void PacketCloudReader::RequireSweeps() const {
     found += "; " + std::to_string(counts.incomplete) + " lack IP fragments";
   }
   if (!counts.damage.empty()) found += "; " + counts.damage;
-  throw InputError(path_, found,
-                   "Velodyne packets of 1206 bytes or Ouster packets with their metadata are "
-                   "sought. Record whole packets (a snap length of 0).");
+  throw InputError(
+      path_, found,
+      "Expected Velodyne packets of 1206 bytes, or Ouster packets with their metadata. "
+      "Record whole packets (a snap length of 0).");
 }
 
 std::int64_t PacketCloudReader::ClockOffsetNs(const PacketStream& stream) const {

@@ -114,6 +114,15 @@ std::vector<fs::path> Ros1BagsOf(const fs::path& path) {
                                                    : std::vector<fs::path>();
 }
 
+bool HoldsMessages(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return false;
+  if (!Ros1BagsOf(path).empty() || IsRos2Bag(path)) return true;
+  if (fs::is_directory(path, error)) return false;
+  const std::string bytes = FirstBytes(path);
+  return BeginsWith(bytes, "\x89MCAP") || BeginsWith(bytes, "SQLite format 3");
+}
+
 std::unique_ptr<RawMessageReader> OpenMessages(const fs::path& path, int threads) {
   std::error_code error;
   const bool is_folder = fs::is_directory(path, error);

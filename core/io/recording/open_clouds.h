@@ -31,6 +31,9 @@ std::unique_ptr<CloudMessageReader> OpenClouds(const std::filesystem::path& path
 /// names. Empty if it names none.
 std::vector<std::filesystem::path> Ros1BagsOf(const std::filesystem::path& path);
 
+/// True for what OpenMessages() opens, and for a folder of ROS 1 bags.
+bool HoldsMessages(const std::filesystem::path& path);
+
 /// Opens a ROS 1 bag, or a ROS 2 bag (a file or a folder), whatever messages are in it. `threads`
 /// as in CloudOptions. Throws InputError.
 std::unique_ptr<RawMessageReader> OpenMessages(const std::filesystem::path& path, int threads = 1);

@@ -96,13 +96,22 @@ void BagIndex::AddConnection(const Connection& connection) {
   topic_of_connection[connection.id] = static_cast<std::size_t>(known - topics.begin());
   if (known == topics.end()) {
     topics.push_back({connection.topic, connection.type, Encoding::kRos1, 0});
+    const Fields fields = connection.fields();
+    const auto text = [&](const char* name) {
+      return std::string(fields.Find(name).value_or(std::string_view()));
+    };
+    topics.back().interface = {connection.type, text("md5sum"), text("message_definition")};
+    topics.back().is_latched = text("latching") == "1";
   }
+  Topic& topic = topics[topic_of_connection[connection.id]];
+  topic.messages += std::exchange(messages_of_unknown[connection.id], 0);
 }
 
 void BagIndex::AddChunk(ChunkEntry chunk, const std::map<std::uint32_t, std::uint64_t>& counts) {
   for (const auto& [connection, count] : counts) {
     const auto topic = topic_of_connection.find(connection);
-    if (topic != topic_of_connection.end()) topics[topic->second].messages += count;
+    const bool is_known = topic != topic_of_connection.end();
+    (is_known ? topics[topic->second].messages : messages_of_unknown[connection]) += count;
     chunk.connections.push_back(connection);
   }
   chunks.push_back(std::move(chunk));

@@ -35,9 +35,11 @@ struct BagIndex {
   std::unordered_map<std::uint32_t, std::size_t> topic_of_connection;
   /// In the order of start_ns.
   std::vector<ChunkEntry> chunks;
+  /// Of connections that were not known when the chunk was added: the one that defines them may be
+  /// broken, and the index at the end has them, too.
+  std::map<std::uint32_t, std::uint64_t> messages_of_unknown;
 
   void AddConnection(const Connection& connection);
-  /// Messages of connections that are not known yet are not counted.
   void AddChunk(ChunkEntry chunk, const std::map<std::uint32_t, std::uint64_t>& counts);
 };
 

@@ -2,7 +2,6 @@
 #include "core/io/ros1/ros1_bag_reader.h"
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 namespace trajlo {
@@ -141,7 +140,8 @@ bool Ros1BagReader::Take(OpenChunks::value_type* open, RawMessage* message) {
   } else {
     message->bytes.Shrink(place.size);
   }
-  std::memcpy(message->bytes.data(), chunk.bytes.data() + place.offset, place.size);
+  // Not memcpy: of a message without bytes the pointers are null.
+  std::copy_n(chunk.bytes.data() + place.offset, place.size, message->bytes.data());
   return true;
 }
 

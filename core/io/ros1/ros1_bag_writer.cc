@@ -63,13 +63,19 @@ Ros1BagWriter::Ros1BagWriter(const std::filesystem::path& path, const Ros1BagOpt
   Append(std::string(ros1::kMagic) + FileHeader(0));
 }
 
+void Ros1BagWriter::Write(const TopicDescription& topic, std::int64_t recorded_ns,
+                          std::string_view message) {
+  Write(topic.name,
+        Field("topic", topic.name) + Field("type", topic.message.type) +
+            Field("md5sum", topic.message.md5sum) +
+            Field("message_definition", topic.message.definition) +
+            (topic.is_latched ? Field("latching", "1") : ""),
+        recorded_ns, message);
+}
+
 void Ros1BagWriter::Write(const std::string& topic, const MessageDescription& description,
                           std::int64_t recorded_ns, std::string_view message) {
-  Write(topic,
-        Field("topic", topic) + Field("type", description.type) +
-            Field("md5sum", description.md5sum) +
-            Field("message_definition", description.definition),
-        recorded_ns, message);
+  Write({topic, description}, recorded_ns, message);
 }
 
 void Ros1BagWriter::Write(const ros1::Connection& publisher, std::int64_t recorded_ns,

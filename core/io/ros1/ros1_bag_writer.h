@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/io/atomic_file.h"
-#include "core/io/messages/message_writer.h"
+#include "core/io/messages/bag_writer.h"
 #include "core/io/ros1/bag_record.h"
 #include "core/io/ros1/chunk_codec.h"
 
@@ -24,23 +24,24 @@ struct Ros1BagOptions {
   IfExists if_exists = IfExists::kFail;
 };
 
-/// Writes a ROS 1 bag (format 2.0). It is written beside, as `<name>.part`, and gets its name by
-/// Close(); without Close() nothing remains. Members throw OutputError: no such folder, no
-/// permission, disk full, ...
+/// Writes a ROS 1 bag (format 2.0), as `<name>.part` until Close().
 ///
 /// Not through librosbag: when the disk is full its destructor throws, which ends the process.
-class Ros1BagWriter {
+class Ros1BagWriter : public BagWriter {
  public:
   explicit Ros1BagWriter(const std::filesystem::path& path, const Ros1BagOptions& options = {});
 
-  /// `message` is serialised in ROS 1's encoding, 512 MB at most. `recorded_ns` is from 0 to the
+  Encoding encoding() const override { return Encoding::kRos1; }
+  /// `message` has 512 MB at most. `recorded_ns` is from 0 to the
   /// year 2106, as the format demands, and need not increase.
+  void Write(const TopicDescription& topic, std::int64_t recorded_ns,
+             std::string_view message) override;
   void Write(const std::string& topic, const MessageDescription& description,
              std::int64_t recorded_ns, std::string_view message);
   /// The same for a message of another bag, whose publisher keeps all that is known of it but its
   /// id. Publishers that differ in nothing else become one.
   void Write(const ros1::Connection& publisher, std::int64_t recorded_ns, std::string_view message);
-  void Close();
+  void Close() override;
 
  private:
   /// `header` as that of ros1::Connection.

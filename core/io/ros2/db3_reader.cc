@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -46,6 +47,7 @@ void Db3Reader::ReadTopics() {
     topic_of_id_[topics.Integer(0)] = topics_.size();
     topics_.push_back(topic);
   }
+  ReadInterfaces();
   if (topics_.empty()) {
     throw InputError(shown_,
                      result == SqliteQuery::Result::kError
@@ -58,6 +60,23 @@ void Db3Reader::ReadTopics() {
     if (rows.Step() != SqliteQuery::Result::kRow) break;
     const auto topic = topic_of_id_.find(rows.Integer(0));
     if (topic != topic_of_id_.end()) ++topics_[topic->second].messages;
+  }
+}
+
+/// ROS 2 has stored them since Iron, and the qualities of service a little longer.
+void Db3Reader::ReadInterfaces() {
+  SqliteQuery texts(
+      file_, "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions");
+  std::map<std::string, std::pair<std::string, std::string>> interfaces;
+  while (texts.Step() == SqliteQuery::Result::kRow) {
+    interfaces[texts.Text(0)] = {texts.Text(1), texts.Text(2)};
+  }
+  SqliteQuery about(file_, "SELECT id, type, offered_qos_profiles FROM topics");
+  while (about.Step() == SqliteQuery::Result::kRow) {
+    const auto topic = topic_of_id_.find(about.Integer(0));
+    if (topic == topic_of_id_.end()) continue;
+    const auto& [language, text] = interfaces[about.Text(1)];
+    SetInterface(language, text, about.Text(2), &topics_[topic->second]);
   }
 }
 

@@ -30,6 +30,7 @@ class Db3Reader : public RawMessageReader {
 
  private:
   void ReadTopics();
+  void ReadInterfaces();
   bool NextRow(std::int64_t* row);
   bool ReadRow(std::int64_t row, RawMessage* message);
   void ReportLostRow(std::uint64_t bytes);

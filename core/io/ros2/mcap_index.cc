@@ -85,16 +85,18 @@ std::optional<McapIndex> IndexFromSummary(const RandomAccessFile& file) {
 void McapTopics::Add(const McapRecord& record) {
   if (record.opcode == McapOpcode::kSchema) {
     const auto schema = ParseMcapSchema(record.content);
-    if (schema) schema_names_.emplace(schema->id, schema->name);
+    if (schema) schemas_.emplace(schema->id, *schema);
     return;
   }
   if (record.opcode != McapOpcode::kChannel) return;
   const auto channel = ParseMcapChannel(record.content);
   if (!channel || topic_of_channel_.count(channel->id) > 0) return;
-  const auto schema = schema_names_.find(channel->schema_id);
-  const Topic topic =
-      MakeTopic(channel->topic, schema == schema_names_.end() ? "unknown" : schema->second,
-                channel->encoding);
+  const auto found = schemas_.find(channel->schema_id);
+  McapSchema schema;
+  if (found != schemas_.end()) schema = found->second;
+  Topic topic = MakeTopic(channel->topic, found == schemas_.end() ? "unknown" : schema.name,
+                          channel->encoding);
+  SetInterface(schema.language, schema.text, channel->qos, &topic);
   const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const Topic& other) {
     return other.name == topic.name && other.type == topic.type && other.encoding == topic.encoding;
   });

@@ -27,7 +27,7 @@ class McapTopics {
   const std::vector<Topic>& topics() const { return topics_; }
 
  private:
-  std::unordered_map<std::uint16_t, std::string> schema_names_;
+  std::unordered_map<std::uint16_t, McapSchema> schemas_;
   std::unordered_map<std::uint16_t, std::size_t> topic_of_channel_;
   std::vector<Topic> topics_;
 };

@@ -26,6 +26,9 @@ std::optional<McapSchema> ParseMcapSchema(std::string_view content) {
   schema.id = reader.Read<std::uint16_t>();
   schema.name = reader.ReadString();
   if (!reader.ok()) return {};
+  // Without them messages can be read all the same.
+  schema.language = reader.ReadString();
+  schema.text = reader.ReadString();
   return schema;
 }
 
@@ -37,6 +40,11 @@ std::optional<McapChannel> ParseMcapChannel(std::string_view content) {
   channel.topic = reader.ReadString();
   channel.encoding = reader.ReadString();
   if (!reader.ok()) return {};
+  WireReader metadata = ReaderOf(reader.ReadString());
+  while (metadata.remaining() > 0) {
+    const std::string_view key = metadata.ReadString(), value = metadata.ReadString();
+    if (key == "offered_qos_profiles") channel.qos = value;
+  }
   return channel;
 }
 

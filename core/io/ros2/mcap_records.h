@@ -9,7 +9,7 @@
 
 namespace trajlo {
 
-/// The records of the MCAP format (https://mcap.dev/spec) that matter for reading messages. Every
+/// The records of the MCAP format (https://mcap.dev/spec) that matter for messages. Every
 /// record is one byte of opcode, eight of length, and its content. Parsers return nothing when a
 /// content is shorter than its fields.
 enum class McapOpcode : std::uint8_t {
@@ -19,8 +19,10 @@ enum class McapOpcode : std::uint8_t {
   kChannel = 0x04,
   kMessage = 0x05,
   kChunk = 0x06,
+  kMessageIndex = 0x07,
   kChunkIndex = 0x08,
   kStatistics = 0x0B,
+  kSummaryOffset = 0x0E,
   kDataEnd = 0x0F
 };
 
@@ -41,6 +43,9 @@ struct McapSchema {
   std::uint16_t id = 0;
   /// "sensor_msgs/msg/PointCloud2"
   std::string name;
+  /// "ros2msg", "ros1msg", "ros2idl", "protobuf", ... and the text of the interface in it.
+  std::string language;
+  std::string text;
 };
 std::optional<McapSchema> ParseMcapSchema(std::string_view content);
 
@@ -50,6 +55,8 @@ struct McapChannel {
   std::string topic;
   /// "cdr", "ros1", ...
   std::string encoding;
+  /// What rosbag2 notes of the qualities of service.
+  std::string qos;
 };
 std::optional<McapChannel> ParseMcapChannel(std::string_view content);
 

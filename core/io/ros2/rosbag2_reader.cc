@@ -115,7 +115,15 @@ void Rosbag2Reader::OpenNextFile() {
   if (!current_) return;
   merger_ = {};
   topic_of_.clear();
-  for (const Topic& topic : current_->topics()) topic_of_.push_back(FindTopic(topics_, topic));
+  for (const Topic& topic : current_->topics()) {
+    topic_of_.push_back(FindTopic(topics_, topic));
+    if (topic_of_.back() == topics_.size()) continue;
+    // What metadata.yaml does not tell.
+    Topic& ours = topics_[topic_of_.back()];
+    if (ours.interface.definition.empty()) ours.interface = topic.interface;
+    if (ours.qos.empty()) ours.qos = topic.qos;
+    ours.is_latched = ours.is_latched || topic.is_latched;
+  }
   Select(selected_);
 }
 

@@ -22,4 +22,16 @@ inline Topic MakeTopic(const std::string& name, std::string type, const std::str
   return topic;
 }
 
+/// What the container knows for copies: the text of the interface, its language ("ros2msg", ...),
+/// and the qualities of service, by the numbers of rmw or by their names.
+inline void SetInterface(const std::string& language, const std::string& text,
+                         const std::string& qos, Topic* topic) {
+  topic->interface.type = topic->type;
+  topic->interface.language = language;
+  topic->interface.definition = text;
+  topic->qos = qos;
+  topic->is_latched = qos.find("durability: 1") != std::string::npos ||
+                      qos.find("durability: transient_local") != std::string::npos;
+}
+
 }  // namespace trajlo

@@ -28,19 +28,22 @@ void Revert(const std::vector<SE3>& poses, Window* window) {
   for (Segment& segment : window->segments) segment.registration = {};
 }
 
-void Judge(const Window& window, const LostOptions& options, WindowStatistics* statistics) {
-  if (!window.is_believed) {
+void Judge(const LostOptions& options, double points_per_error, Window* window,
+           WindowStatistics* statistics) {
+  Segment& newest = window->segments.back();
+  newest.feigned =
+      FeignedBy(newest.points, window->Pose(window->size() - 1), newest.T_world_end, window->noise);
+  if (!window->is_believed) {
     statistics->flags |= kFlagReverted;
   } else if (!statistics->has_converged) {
     statistics->flags |= kFlagNotConverged;
   }
-  if (IsStarved(window, window.segments.back(), options.min_inlier_share)) {
-    statistics->flags |= kFlagNoPoints;
-  }
-  const WindowCondition condition = ConditionOf(window);
+  if (IsStarved(*window, newest, options.min_inlier_share)) statistics->flags |= kFlagNoPoints;
+  const WindowCondition condition = ConditionOf(*window, points_per_error);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;
-  if (condition.smallest_eigenvalue < options.degenerate_eigenvalue) {
+  const double sigma_m = options.degenerate_sigma_m;
+  if (condition.smallest_eigenvalue * sigma_m * sigma_m < 1.0) {
     statistics->flags |= kFlagDegenerate;
   }
 }

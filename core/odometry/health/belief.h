@@ -19,7 +19,9 @@ bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double dura
 /// registration is forgotten.
 void Revert(const std::vector<SE3>& poses, Window* window);
 
-/// Sets the flags of a window from how its solve went and from how its points hold it.
-void Judge(const Window& window, const LostOptions& options, WindowStatistics* statistics);
+/// Sets the flags of a window from how its solve went and from how its points hold it. Of its
+/// segments the newest is looked at: it learns what the noise of its normals feigns.
+void Judge(const LostOptions& options, double points_per_error, Window* window,
+           WindowStatistics* statistics);
 
 }  // namespace trajlo

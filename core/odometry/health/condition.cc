@@ -2,33 +2,61 @@
 #include "core/odometry/health/condition.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 namespace trajlo {
+namespace {
 
-WindowCondition ConditionOf(const Window& window) {
-  const SE3& newest = window.Pose(window.size());
-  Matrix6d information = Matrix6d::Zero();
-  std::size_t points = 0;
-  for (int k = 0; k < window.size(); ++k) {
-    const Segment& segment = window.segments[static_cast<std::size_t>(k)];
-    // A rigid motion xi of the newest frame moves T_j by Adj(T_j⁻¹ T_newest) xi.
-    Eigen::Matrix<double, 12, 6> A;
-    A << se3::Adjoint(window.Pose(k).Inverse() * newest),
-        se3::Adjoint(window.Pose(k + 1).Inverse() * newest);
-    information += A.transpose() * segment.registration.H * A;
-    points += segment.points.size();
+constexpr double kSigmas = 3.0;
+
+/// H and F of a rigid motion of the window, in the frame of its newest pose.
+struct RigidInformation {
+  Matrix6d H = Matrix6d::Zero();
+  FeignedInformation feigned;
+  double points = 0.0;
+
+  explicit RigidInformation(const Window& window) {
+    const SE3& newest = window.Pose(window.size());
+    for (int k = 0; k < window.size(); ++k) {
+      const Segment& segment = window.segments[static_cast<std::size_t>(k)];
+      // A rigid motion xi of the newest frame moves T_j by Adj(T_j⁻¹ T_newest) xi.
+      Eigen::Matrix<double, 12, 6> A;
+      A << se3::Adjoint(window.Pose(k).Inverse() * newest),
+          se3::Adjoint(window.Pose(k + 1).Inverse() * newest);
+      H += A.transpose() * segment.registration.H * A;
+      const Matrix6d A_end = A.bottomRows<6>();
+      feigned.mean += A_end.transpose() * segment.feigned.mean * A_end;
+      feigned.sum += segment.feigned.sum;
+      feigned.sum_of_squares += segment.feigned.sum_of_squares;
+      points += static_cast<double>(segment.points.size());
+    }
   }
+};
+
+/// 1 + 3 sqrt(2 / N_F): the sum of N_F squares of Gaussian noise, in units of its mean.
+double LargestFeigned(const FeignedInformation& feigned, double points_per_error) {
+  if (!(feigned.sum > 0.0)) return 1.0;
+  const double count = feigned.sum * feigned.sum / (points_per_error * feigned.sum_of_squares);
+  return 1.0 + kSigmas * std::sqrt(2.0 / count);
+}
+
+}  // namespace
+
+WindowCondition ConditionOf(const Window& window, double points_per_error) {
+  const RigidInformation information(window);
   WindowCondition condition;
-  const double translation = information.topLeftCorner<3, 3>().trace();
-  const double rotation = information.bottomRightCorner<3, 3>().trace();
-  if (points == 0 || !(translation > 0.0) || !(rotation > 0.0)) return condition;
+  const double translation = information.H.topLeftCorner<3, 3>().trace();
+  const double rotation = information.H.bottomRightCorner<3, 3>().trace();
+  if (!(translation > 0.0) || !(rotation > 0.0)) return condition;
   Vector6d scaling = Vector6d::Ones();
   scaling.tail<3>().setConstant(std::sqrt(translation / rotation));
-  information = scaling.asDiagonal() * information * scaling.asDiagonal();
-  information *= window.noise.sigma_m * window.noise.sigma_m / static_cast<double>(points);
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
-  condition.smallest_eigenvalue = eigen.eigenvalues()[0];
+  const Matrix6d certain = information.H - LargestFeigned(information.feigned, points_per_error) *
+                                               information.feigned.mean;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaling.asDiagonal() * certain *
+                                                      scaling.asDiagonal());
+  const double left_over = 1.0 - 6.0 * points_per_error / information.points;
+  condition.smallest_eigenvalue = std::max(0.0, left_over) * std::max(0.0, eigen.eigenvalues()[0]);
   condition.weak_direction = eigen.eigenvectors().col(0);
   return condition;
 }

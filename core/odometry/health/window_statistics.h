@@ -43,8 +43,8 @@ struct WindowStatistics {
   /// How far the points moved the newest pose from where the motion prior had put it.
   double correction_m = 0.0;
   double correction_rad = 0.0;
-  /// Smallest eigenvalue of the registration information of the newest control poses, per point,
-  /// and its direction [rho; theta] in the body frame, rotations scaled as in WindowCondition.
+  /// What the points tell about the direction that they hold least (1/m²), and that direction, in
+  /// the body frame: see WindowCondition.
   double smallest_eigenvalue = 0.0;
   Vector6d weak_direction = Vector6d::Zero();
   double last_step_m = 0.0;

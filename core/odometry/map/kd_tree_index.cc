@@ -51,7 +51,8 @@ void KdTreeIndex::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* 
   if (index_->cloud.points.empty()) return;
   nanoflann::KNNResultSet<double> result(static_cast<std::size_t>(std::min(k, kMaxNeighbors)));
   result.init(indices, squared);
-  index_->tree.findNeighbors(result, query_world.data(), nanoflann::SearchParams());
+  // The default parameters: the name of their type has changed.
+  index_->tree.findNeighbors(result, query_world.data(), {});
   neighbors->count = static_cast<int>(result.size());
   for (int i = 0; i < neighbors->count; ++i) {
     const Eigen::Vector3d p = index_->cloud.points[indices[i]] - query_world;

@@ -37,6 +37,8 @@ struct Plane {
   double weight = 0.0;
   /// Voxels of the level it comes from, in those of the finest.
   double scale = 1.0;
+  /// See FittedPlane.
+  double normal_variance_rad2 = 0.0;
 
   bool exists() const { return weight > 0.0; }
 };

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// The most neighbours that a query can ask for.

@@ -48,6 +48,8 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   plane.offset_m = static_cast<float>(normal.dot(from_center));
   plane.thickness_m = static_cast<float>(thickness_m);
   plane.width_m = static_cast<float>(width_m);
+  const double flatness = thickness_m / width_m;
+  plane.normal_variance_rad2 = static_cast<float>(flatness * flatness / std::max(1, n - 3));
   return plane;
 }
 

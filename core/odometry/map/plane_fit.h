@@ -52,6 +52,9 @@ struct FittedPlane {
   float offset_m = 0.0F;
   float thickness_m = 0.0F;  ///< l0
   float width_m = 0.0F;      ///< l1; zero says that there is no plane.
+  /// How far the noise of n neighbours tilts the normal: l0² / ((n - 3) l1²), about the longer
+  /// axis.
+  float normal_variance_rad2 = 0.0F;
 
   bool exists() const { return width_m > 0.0F; }
 };

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// The coordinates of a voxel: floor(p / size).

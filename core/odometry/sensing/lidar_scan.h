@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// One return of a LiDAR, in the frame of that LiDAR.

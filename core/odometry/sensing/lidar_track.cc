@@ -28,6 +28,13 @@ bool LidarTrack::GoesOn(const LidarScan& scan, const ScanTimes& times) const {
          clock_.IsNext(clock_.PlaceOf(scan, times).begin_ns);
 }
 
+bool LidarTrack::IsStuck(const LidarScan& scan, const ScanTimes& times) const {
+  const bool goes_on =
+      clock_.has_started() &&
+      clock_.PlaceOf(scan, times).begin_ns > Sum(clock_.last().begin_ns, clock_.period_ns() / 2);
+  return goes_on && memory_.Varies() && memory_.HasPoints(scan) && HasReturn(scan);
+}
+
 void LidarTrack::NoteAt(const ScanPlace& place, const LidarScan& scan, const ScanTimes& times) {
   if (!clock_.has_started()) first_ns_ = place.begin_ns;
   clock_.Note(scan, place);

@@ -77,6 +77,10 @@ class LidarTrack {
     NoteAt(clock_.PlaceOf(scan, times), scan, times);
   }
 
+  /// True if a scan that goes on has the points of one that came before: a driver that hangs sends
+  /// the last one again and again, with new stamps.
+  bool IsStuck(const LidarScan& scan, const ScanTimes& times) const;
+
   /// Takes a scan to be judged. It must stay where it is until then.
   void Hold(HeldScan* held) { held_.push_back(held); }
   /// Judges what can be judged, in the order in which it is to be handed on; all if `is_final`.

@@ -23,6 +23,12 @@ class ScanMemory {
     return std::any_of(scans_.begin(), scans_.end(),
                        [&](const Known& known) { return known.fingerprint == fingerprint; });
   }
+  /// True if not all have the same points, as those of a simulated sensor at rest may.
+  bool Varies() const {
+    return std::any_of(scans_.begin(), scans_.end(), [&](const Known& known) {
+      return known.fingerprint != scans_.front().fingerprint;
+    });
+  }
   /// True if one of them began within `tolerance_ns` of this time.
   bool HasTime(std::int64_t begin_ns, std::int64_t tolerance_ns) const {
     return std::any_of(scans_.begin(), scans_.end(), [&](const Known& known) {

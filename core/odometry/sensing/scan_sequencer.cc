@@ -47,6 +47,11 @@ void ScanSequencer::Add(const LidarScan& scan) {
     return;
   }
   track.NoteArrival(*times, arrival);
+  if (track.IsStuck(scan, *times)) {
+    ++report_.stuck;
+    report_.points += static_cast<std::int64_t>(scan.points.size());
+    return;
+  }
   const bool is_plain = times->strays == 0 && track.clock().offset_ns() == 0;
   if (queue_.empty() && is_plain && track.GoesOn(scan, *times)) {
     track.Note(scan, *times);

@@ -87,6 +87,12 @@ std::uint64_t Fingerprint(const LidarScan& scan) {
   return hash;
 }
 
+bool HasReturn(const LidarScan& scan) {
+  return std::any_of(scan.points.begin(), scan.points.end(), [](const LidarPoint& point) {
+    return point.xyz_m.allFinite() && !point.xyz_m.isZero();
+  });
+}
+
 void RemoveStrays(const ScanTimes& times, LidarScan* scan) {
   if (times.strays == 0) return;
   const auto keep_end =

@@ -28,6 +28,9 @@ std::optional<ScanTimes> MeasureTimes(const LidarScan& scan, std::int64_t usual_
 /// A number that equal scans share, whatever their times, and others practically never.
 std::uint64_t Fingerprint(const LidarScan& scan);
 
+/// True if a point of the scan is somewhere: neither at zero nor not finite.
+bool HasReturn(const LidarScan& scan);
+
 /// Takes the strays out of the scan.
 void RemoveStrays(const ScanTimes& times, LidarScan* scan);
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// A point of a segment in the body frame at its own time; `alpha` is that time as a share of the

@@ -18,6 +18,7 @@ struct TimeReport {
   // Dropped.
   std::int64_t misfits = 0;   ///< The stamp fits nowhere.
   std::int64_t repeated = 0;  ///< The place of the stamp is taken.
+  std::int64_t stuck = 0;     ///< The points are those of a scan before, the stamp is new.
   std::int64_t apart = 0;     ///< Of a LiDAR whose clock does not meet that of the first.
 
   std::int64_t clock_steps = 0;  ///< Lasting ones: the later times are moved to go on.
@@ -29,7 +30,7 @@ struct TimeReport {
   /// What a user should know, a sentence each.
   std::vector<std::string> remarks;
 
-  std::int64_t Dropped() const { return misfits + repeated + apart; }
+  std::int64_t Dropped() const { return misfits + repeated + stuck + apart; }
 };
 
 }  // namespace trajlo

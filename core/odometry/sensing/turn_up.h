@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// Turns the ray to `p` up by `angle_rad` about the horizontal axis p x z, which is perpendicular

@@ -47,7 +47,6 @@ void MotionPrior::Apply(Window* window) const {
 }
 
 void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
-  if (!options_.self_tuning) return;
   const double decay = std::exp(-duration_s / kSumMemory_s);
   for (int i = 0; i < 6; ++i) {
     sum_[i] *= decay;
@@ -55,8 +54,11 @@ void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
     sum_[i] += innovation.correction[i] / std::sqrt(innovation.expected_variance[i]);
   }
   const double floor[2] = {options_.min_translation_m2_s3, options_.min_rotation_rad2_s3};
+  const double share = 1.0 - std::exp(-duration_s / kLearning_s);
   for (int part = 0; part < 2; ++part) {
     const double surprise = Surprise(innovation, 3 * part, decay);
+    surprise_[part] += share * (surprise - surprise_[part]);
+    if (!options_.self_tuning) continue;
     const double score = std::min(surprise - 1.0, kLargestScore);
     const double density = density_[3 * part] * std::exp(score * duration_s / kLearning_s);
     density_.segment<3>(3 * part).setConstant(std::clamp(density, floor[part], kLargestDensity));

@@ -69,6 +69,10 @@ class MotionPrior {
   /// [rho; theta]: m²/s³ and rad²/s³.
   const Vector6d& density() const { return density_; }
 
+  /// u of translation and of rotation, in the mean over T_l; 1 before there is evidence.
+  /// Corrections are so many times as large as the covariances of the window expect.
+  const Eigen::Vector2d& surprise() const { return surprise_; }
+
   /// Ties the velocities of the segments by the present densities.
   void Apply(Window* window) const;
 
@@ -82,6 +86,7 @@ class MotionPrior {
   MotionPriorOptions options_;
   Vector6d density_;
   Vector6d sum_ = Vector6d::Zero();  ///< s
+  Eigen::Vector2d surprise_ = Eigen::Vector2d::Ones();
 };
 
 }  // namespace trajlo

@@ -60,6 +60,7 @@ int SegmentAssociation::Renew(const SegmentPoint* points, std::size_t count,
     queries[asked] = {places[i], (places[i] - origin).cast<float>()};
     asking[asked++] = i;
   }
+  if (asked == 0) return 0;
   map.FindPlanes(queries.data(), asked, planes.data());
   for (std::size_t i = 0; i < asked; ++i) entries[asking[i]].plane = planes[i];
   return static_cast<int>(asked);
@@ -97,7 +98,7 @@ int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
     const Plane& plane = entries_[i].plane;
     if (!plane.exists()) continue;
     associated->push_back({points[i].p_body_m.cast<double>(), points[i].alpha, plane.normal_world,
-                           plane.offset_m, plane.weight});
+                           plane.offset_m, plane.weight, plane.normal_variance_rad2});
   }
   return searched;
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kStandardDeviations = 3.0;
 /// Of the variance, from round to round.
 constexpr double kShrink = 0.25;
-/// Where all f are below this, the kernel itself reaches far enough.
+/// Where f of most points is below this, the kernel itself reaches far enough.
 constexpr double kSmallest = 1.0;
 
 }  // namespace
@@ -37,7 +37,10 @@ bool Graduation::Widen(Segment* newest) {
     f.push_back(J.dot(reach_ * J));
   }
   reach_ *= kShrink;
-  if (f.empty() || *std::max_element(f.begin(), f.end()) < kSmallest) return false;
+  const auto is_far = [](double f_of_point) { return f_of_point >= kSmallest; };
+  if (2 * std::count_if(f.begin(), f.end(), is_far) <= static_cast<std::ptrdiff_t>(f.size())) {
+    return false;
+  }
   weights_.clear();
   for (std::size_t i = 0; i < f.size(); ++i) {
     weights_.push_back(newest->points[i].weight);

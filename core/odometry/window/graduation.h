@@ -19,16 +19,16 @@ namespace trajlo {
 ///
 /// with J the derivative of the point's distance by the newest pose: a point is doubted in
 /// proportion to how far it may be off, and the kernel c, which is in units of sigma /
-/// sqrt(weight), becomes c sqrt(1 + f). Where the prediction is good, f is small for all points and
-/// nothing happens. Idea: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al.,
+/// sqrt(weight), becomes c sqrt(1 + f). Where the prediction is good, f is small for most points
+/// and nothing happens. Idea: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al.,
 /// Graduated Non-Convexity for Robust Spatial Perception, RA-L 2020.
 class Graduation {
  public:
   /// Before the newest segment of `window` is associated for the first time.
   explicit Graduation(const Window& window);
 
-  /// Widens the kernels of the newest segment's points for one round; false if none needs it any
-  /// more.
+  /// Widens the kernels of the newest segment's points for one round; false if most need it
+  /// no more.
   bool Widen(Segment* newest);
   /// Takes it back.
   void Restore(Segment* newest) const;

@@ -8,6 +8,7 @@
 
 #include "core/odometry/sensing/segment_cloud.h"
 #include "core/odometry/window/association.h"
+#include "core/odometry/window/feigned_information.h"
 #include "factors/marginalization_prior.h"
 #include "factors/registration_point.h"
 #include "factors/segment_registration.h"
@@ -38,6 +39,8 @@ struct Segment {
   RegistrationNormalEquations registration;
   /// What `registration` comes from; nothing where `points` are others now.
   std::optional<LinearizedRegistration> linearization;
+  /// Of the registration's information, what the noise of normals feigns.
+  FeignedInformation feigned;
   unsigned flags = 0;  ///< WindowFlag bits of the window in which this segment was the newest.
 
   double Duration_s() const { return 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns); }

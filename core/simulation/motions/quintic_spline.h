@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo::simulation {
 
 /// A uniform B-spline of degree 5 in R⁴ (x, y, z, yaw): four times continuously differentiable, and

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo::simulation {
 
 /// A way through a scene that is free of obstacles for about half a metre on either side (more for

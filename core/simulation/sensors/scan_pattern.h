@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo::simulation {
 
 /// One shot of a laser.

@@ -2,6 +2,8 @@
 #include "core/config/config.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
@@ -60,8 +62,31 @@ TEST(Config, UnknownKeyWithoutANearOneListsItsSection) {
 }
 
 TEST(Config, RepeatedKeyIsAnError) {
-  EXPECT_THAT(LoadingError("window: {segments: 3}\nwindow: {segments: 4}"),
+  EXPECT_THAT(LoadingError("window: {segments: 3,\n segments: 4}"),
               AllOf(StartsWith("my.yaml:2:"), HasSubstr("set twice")));
+}
+
+TEST(Config, RepeatedSectionAndSecondDocumentAreErrors) {
+  EXPECT_THAT(LoadingError("window: {segments: 3}\nmap:\nwindow: {deskewing: predicted}"),
+              AllOf(StartsWith("my.yaml:3:1"), HasSubstr("section 'window' is there twice")));
+  EXPECT_THAT(LoadingError("expert: {map: {plane: {neighbors: 5}, plane: {}}}"),
+              HasSubstr("section 'expert.map.plane' is there twice"));
+  EXPECT_THAT(LoadingError("---\nwindow: {segments: 3}\n---\nwindow: {segments: 4}\n"),
+              AllOf(StartsWith("my.yaml:4:"), HasSubstr("second YAML document")));
+  EXPECT_EQ(Loaded("---\nwindow: {segments: 3}\n...\n").odometry.window.segments, 3);
+}
+
+TEST(Config, WhatIsNoFileOfTextIsRefusedAtOnce) {
+  RunConfig config;
+  for (const char* path : {"/dev/zero", "/dev/full", "/", "/nowhere.yaml"}) {
+    EXPECT_THAT(ConfigErrorOf([&] { LoadConfigFile(path, &config); }), StartsWith(path));
+  }
+  const std::string pipe = ::testing::TempDir() + "/trajlo_config_pipe";
+  ::unlink(pipe.c_str());
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(ConfigErrorOf([&] { LoadConfigFile(pipe, &config); }),
+              HasSubstr("not a regular file"));
+  ::unlink(pipe.c_str());
 }
 
 TEST(Config, SectionWithAValueAndOptionWithASectionAreErrors) {

@@ -73,6 +73,20 @@ sensor:
   EXPECT_EQ(Extrinsics(config)[3].t, Eigen::Vector3d(4, 5, 6));
 }
 
+TEST(ConfigExtrinsics, AMatrixMayBeAFlatListRowByRow) {
+  const std::string rows = "0, 0, 1, -0.35, 0, 1, 0, 0.03, -1, 0, 0, -0.05";
+  const std::string whole = "[" + rows + ", 0, 0, 0, 1]";
+  for (const std::string& value : {"[[" + rows + "], " + whole + "]", "[[" + rows + "]]",
+                                   "[" + rows + "]", whole, "{matrix: " + whole + "}"}) {
+    const RunConfig config = Overridden("sensor.T_body_lidar=" + value);
+    EXPECT_EQ(Extrinsics(config).size(), value.find("], [") == std::string::npos ? 1u : 2u);
+    for (const SE3& T : Extrinsics(config)) {
+      const Eigen::Vector3d p = T * Eigen::Vector3d(1, 2, 3);
+      EXPECT_NEAR((p - Eigen::Vector3d(2.65, 2.03, -1.05)).norm(), 0.0, 1e-12) << value;
+    }
+  }
+}
+
 TEST(ConfigExtrinsics, MistakesAreExplained) {
   const auto problem = [](const std::string& value) {
     return OverrideError("sensor.T_body_lidar=" + value);
@@ -86,7 +100,11 @@ TEST(ConfigExtrinsics, MistakesAreExplained) {
   EXPECT_THAT(problem("[{matrix: [2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]}]"),
               HasSubstr("no rotation"));
   EXPECT_THAT(problem("[{matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0]}]"),
-              HasSubstr("determinant"));
+              HasSubstr("it mirrors, its determinant is -1"));
+  EXPECT_THAT(problem("[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1]"),
+              AllOf(HasSubstr("last row"), HasSubstr("row by row")));
+  EXPECT_THAT(problem("[1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1]"), HasSubstr("found 11 numbers"));
+  EXPECT_THAT(problem("[1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6, 7]"), HasSubstr("found 13 numbers"));
   EXPECT_THAT(problem("[{translation: [1, 2, 3]}]"), HasSubstr("unexpected 'translation'"));
   EXPECT_THAT(problem("3"), HasSubstr("expected a list"));
 }

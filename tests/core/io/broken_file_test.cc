@@ -145,7 +145,7 @@ TEST(BrokenFile, ErrorsNameTheFileTheFindingAndTheMend) {
   EXPECT_THAT(message("f.ply", "ply\nformat ascii 1.0\nelement face 1\nend_header\n"),
               HasSubstr("no element named vertex"));
   EXPECT_THAT(message("g.pcd", AsciiPcd("a b c", "4 4 4", "F F F", {"1 2 3"})),
-              HasSubstr("x, y and z are sought, but the file has: a b c"));
+              HasSubstr("x, y and z, but this file has: a b c"));
   EXPECT_THAT(message("h.pcd", "FIELDS x\nSIZE 4\nTYPE F\nPOINTS 1\nDATA binary_compressed\n123"),
               HasSubstr("its two sizes are cut off"));
 }

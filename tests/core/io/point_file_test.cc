@@ -172,6 +172,10 @@ TEST(PointFile, ABinWithFiveNumbersAPointIsToldByItsRings) {
   EXPECT_EQ(table.damage, "");
   EXPECT_NEAR(Values(table, "x")[319], 79.85, 1e-4);
   EXPECT_EQ(Values(table, "ring")[33], 1.0);
+  const PointTable cut = ReadPointFile(folder.Write("cut.pcd.bin", bytes.substr(0, 20 * 319 + 13)));
+  EXPECT_EQ(cut.FieldNames(), "x y z intensity ring");
+  EXPECT_EQ(cut.count, 319U);
+  EXPECT_THAT(cut.damage, HasSubstr("319 points of 20 bytes and a rest of 13"));
   // The same numbers, but no rings: five is not certain, and four leave no rest here.
   for (int i = 0; i < 320; ++i) bytes[static_cast<std::size_t>(20 * i + 16)] = '\x11';
   EXPECT_EQ(ReadPointFile(folder.Write("b.bin", bytes)).FieldNames(), "x y z intensity");

@@ -137,7 +137,7 @@ TEST(ScanFolder, ANamedTimeFieldThatIsMissingIsAnErrorThatListsTheFields) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("'curvature' is sought, but the points have: x y z intensity time"));
+                HasSubstr("'curvature' (input.time_field); the points have: x y z intensity time"));
   }
 }
 

@@ -147,6 +147,24 @@ TEST_F(StampSearch, WhenAScanIsMissingTheIndexInTheNamesPicksTheLine) {
   EXPECT_THAT(Find().t_ns, ElementsAre(5 * kSecond, 6 * kSecond, 8 * kSecond));
 }
 
+TEST_F(StampSearch, NamesOfSeveralPatternsLeaveOpenWhichStampIsWhose) {
+  for (const char* name : {"000000.pcd", "000002.pcd", "000003.pcd"}) folder_.Write(name, "");
+  folder_.Write("timestamps.txt", "5.0\n6.0\n7.0\n8.0\n");
+  for (const char* odd : {"copy of 000001.pcd", "000001 (1).pcd", "a.pcd"}) {
+    const auto file = folder_.Write(odd, "");
+    try {
+      Find();
+      FAIL() << odd;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(odd));
+      EXPECT_THAT(error.what(), HasSubstr("000000.pcd"));
+    }
+    std::filesystem::remove(file);
+  }
+  folder_.Write("1.pcd", "");  // digits are compared as numbers
+  EXPECT_THAT(Find().t_ns, ElementsAre(5 * kSecond, 6 * kSecond, 7 * kSecond, 8 * kSecond));
+}
+
 TEST_F(StampSearch, TimesOfRecordingAreFoundInTheSameWay) {
   for (const char* name : {"scans/0.pcd", "scans/2.pcd"}) folder_.Write(name, "");
   const ScanListing listing = ListScans(folder_.path());

@@ -115,6 +115,12 @@ TEST(TimeConvention, GapsInTheStampsDoNotHideTheUnit) {
   EXPECT_EQ(found.sweep_ns, 99'900'000);
 }
 
+TEST(TimeConvention, ASweepOfWhichOnlyTheLastPartReturnsIsRelativeAllTheSame) {
+  const auto found = DeduceTimeConvention(FiveScans(1e9, 0.0503, 0.0996, 0, true), {});
+  EXPECT_EQ(found.unit, TimeUnit::kNanoseconds);
+  EXPECT_EQ(found.origin, TimeOrigin::kSweepStart);
+}
+
 TEST(TimeConvention, ThePeriodIsTheSweepWhenBothAgree) {
   EXPECT_EQ(DeduceTimeConvention(FiveScans(1, 0, 0.0999, 0, true), {}).sweep_ns, 100'000'000);
 }

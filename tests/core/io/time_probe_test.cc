@@ -142,7 +142,7 @@ TEST(TimeProbe, WhatIsAskedForIsObeyedOrRefused) {
   EXPECT_THAT(refusal(options, Repeated(30, [] { return Table(0); })),
               AllOf(HasSubstr("point times are asked for"), HasSubstr("enough points")));
   EXPECT_THAT(refusal(options, Repeated(5, [] { return Table(100, "t"); })),
-              HasSubstr("'time' is sought, but the points have: x y z t"));
+              HasSubstr("'time' (input.time_field); the points have: x y z t"));
   TimeOptions unit;
   unit.unit = TimeUnit::kMilliseconds;
   EXPECT_THAT(refusal(unit, Repeated(5, [] { return Table(100, "curvature"); })),

@@ -46,6 +46,27 @@ RunSummary ExampleSummary() {
   return s;
 }
 
+TEST(RunSummary, ManyScansThatRepeatPointsAreMissingInput) {
+  RunSummary s;
+  s.times.scans = 100;
+  s.times.stuck = 5;
+  EXPECT_EQ(s.MissingInput(), "");
+  EXPECT_THAT(s.OddStamps(), HasSubstr("5 dropped (the points of a scan before"));
+  s.times.stuck = 6;
+  EXPECT_THAT(s.MissingInput(), HasSubstr("6 of 100 scans have the points of a scan before"));
+  EXPECT_EQ(nlohmann::json::parse(RunJson(s))["input"]["scans"]["points_repeated"], 6);
+}
+
+TEST(RunSummary, APointIsDroppedForOneReason) {
+  RunSummary s = ExampleSummary();
+  s.read.points_without_time = 4;  // the segmenter sees them as points that are not finite
+  const auto points = nlohmann::json::parse(RunJson(s))["input"]["points"];
+  EXPECT_EQ(points["not_finite"], 6);
+  EXPECT_EQ(points["without_time"], 4);
+  EXPECT_THAT(SummaryTable(s), HasSubstr("6 not finite"));
+  EXPECT_THAT(SummaryTable(s), HasSubstr("4 without a possible time"));
+}
+
 TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   RunSummary s;
   EXPECT_EQ(s.MissingInput(), "");
@@ -106,6 +127,7 @@ TEST(RunJson, ARunWithoutAResultIsStillValid) {
   const nlohmann::json json = nlohmann::json::parse(RunJson({}));
   EXPECT_TRUE(json["result"]["begin_s"].is_null());
   EXPECT_EQ(json["exit"]["reason"], "running");
+  EXPECT_TRUE(json["exit"]["code"].is_null());
 }
 
 TEST(RunJson, SurvivesPathsThatAreNotUtf8) {

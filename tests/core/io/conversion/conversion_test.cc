@@ -179,7 +179,7 @@ TEST(CopyBags, PublishersKeepTheirNamesAndAreLatchedAsTheyWere) {
   const std::string plain = PublisherHeader("/talker", "0");
   Ros1BagWriter writer(folder / "a.bag");
   for (int i = 0; i < 4; ++i) {
-    writer.Write({0, "/said", "std_msgs/String", i % 2 == 0 ? latched : plain}, i,
+    writer.Write(ros1::Connection{0, "/said", "std_msgs/String", i % 2 == 0 ? latched : plain}, i,
                  std::string(4, '\0'));
   }
   writer.Close();

@@ -203,23 +203,46 @@ TEST(AdviseRun, TellsTheSensorByItsFields) {
   const auto config = [](std::vector<FieldDescription> fields) {
     return AdviseRun(Recording({Cloud("/points", std::move(fields))})).config;
   };
-  EXPECT_EQ(config({{"t", "uint32", 20}, {"reflectivity", "uint16", 24}}),
-            "config/datasets/ouster.yaml");
-  EXPECT_EQ(config({{"ring", "uint16", 16}, {"time", "float32", 18}}),
-            "config/datasets/velodyne.yaml");
-  EXPECT_EQ(config({{"timestamp", "float64", 16}}), "config/datasets/hesai.yaml");
-  EXPECT_EQ(config({{"offset_time", "uint32", 0}}), "config/datasets/livox.yaml");
+  EXPECT_EQ(config({{"t", "uint32", 20}, {"reflectivity", "uint16", 24}}), "ouster");
+  EXPECT_EQ(config({{"ring", "uint16", 16}, {"time", "float32", 18}}), "velodyne");
+  EXPECT_EQ(config({{"timestamp", "float64", 16}}), "hesai");
+  EXPECT_EQ(config({{"offset_time", "uint32", 0}}), "livox");
   EXPECT_EQ(config({{"x", "float32", 0}}), "");
+}
+
+/// A folder of .bin scans without times, seen by a LiDAR of this field of view.
+RecordingInspection BinFolder(const std::string& folder, double low_deg, double high_deg) {
+  CloudInspection cloud = Cloud(folder, {});
+  cloud.type = ".bin files";
+  cloud.convention = {};
+  cloud.points.elevation_1_deg = low_deg;
+  cloud.points.elevation_99_deg = high_deg;
+  return Recording({cloud});
+}
+
+TEST(AdviseRun, TiltsTheRaysOfKittiOnlyAndSaysSo) {
+  for (const char* folder : {"sequences/00/velodyne", "drive/velodyne_points/data"}) {
+    const RunAdvice kitti = AdviseRun(BinFolder(folder, -23.2, 3.1));
+    EXPECT_EQ(kitti.config, "kitti");
+    EXPECT_THAT(kitti.remarks, Contains(HasSubstr("turns every ray up by 0.205 degrees")));
+  }
+  for (const RecordingInspection& other :
+       {BinFolder("sequences/00/clouds", -23.2, 3.1), BinFolder("velodyne", -30.0, 10.0),
+        BinFolder("velodyne", -15.0, 14.0), BinFolder("velodyne", -24.8, 2.0)}) {
+    const RunAdvice advice = AdviseRun(other);
+    EXPECT_EQ(advice.config, "");
+    EXPECT_THAT(advice.remarks, Contains(HasSubstr("--set input.point_time=none")));
+  }
 }
 
 TEST(AdviseRun, QuotesForAShellAndSaysWhatItDoesNotKnow) {
   const RunAdvice one = AdviseRun(Recording({Cloud("/points", {})}));
-  EXPECT_EQ(one.command, "trajlo_run '--input=my recording.bag' --output=result");
+  EXPECT_EQ(one.command, "trajlo_run 'my recording.bag' -o result");
   EXPECT_THAT(one.remarks, Contains(HasSubstr("sensor.T_body_lidar")));
   const RunAdvice two = AdviseRun(Recording({Cloud("/a", {}), Cloud("/b", {})}));
-  EXPECT_THAT(two.command, HasSubstr(R"('--set=input.topics=["/a", "/b"]')"));
+  EXPECT_THAT(two.command, HasSubstr(R"(--set 'input.topics=["/a", "/b"]')"));
   EXPECT_THAT(two.remarks, Contains(HasSubstr("where the LiDARs sit is not known")));
-  EXPECT_THAT(two.remarks, Contains(HasSubstr("--set=input.topics=/a")));
+  EXPECT_THAT(two.remarks, Contains(HasSubstr("--set input.topics=/a")));
 }
 
 TEST(AdviseRun, TakesTheExtrinsicsThatLieInTheRecordingsFolder) {
@@ -227,7 +250,7 @@ TEST(AdviseRun, TakesTheExtrinsicsThatLieInTheRecordingsFolder) {
   recording.path = "simulated";
   recording.rig_config = "simulated/rig.yaml";
   const RunAdvice advice = AdviseRun(recording);
-  EXPECT_THAT(advice.command, HasSubstr(" --config=simulated/rig.yaml "));
+  EXPECT_THAT(advice.command, HasSubstr(" -c simulated/rig.yaml "));
   EXPECT_THAT(advice.remarks, IsEmpty());
 }
 
@@ -235,7 +258,7 @@ TEST(AdviseRun, KnowsDatasetsByTheirTopicsAndContradictsThemByEvidence) {
   std::vector<CloudInspection> clouds = {Cloud("/os1_cloud_node2/points", {}),
                                          Cloud("/os1_cloud_node1/points", {})};
   const RunAdvice advice = AdviseRun(Recording(clouds));
-  EXPECT_EQ(advice.config, "config/datasets/ntu_viral.yaml");
+  EXPECT_EQ(advice.config, "ntu_viral");
   // The order of the config's extrinsics, not that of the bag.
   EXPECT_THAT(advice.command,
               HasSubstr(R"(["/os1_cloud_node1/points", "/os1_cloud_node2/points"])"));

@@ -16,7 +16,7 @@ inline FileBytes ToFileBytes(const std::string& text) {
   return bytes;
 }
 
-inline const char* TypeOf(CloudLayout layout) { return DescriptionOf(layout).type; }
+inline const char* TypeOf(CloudLayout layout) { return DescriptionOf(layout).type.c_str(); }
 
 /// Decodes a message in ROS 1's encoding.
 inline bool Decode(const std::string& type, const std::string& bytes, CloudMessage* cloud,

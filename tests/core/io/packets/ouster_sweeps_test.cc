@@ -166,7 +166,7 @@ TEST(OusterSweeps, OfDualReturnsKeepBothOrTheFirst) {
 TEST(OusterMetadata, IsFoundBesideTheCaptureByItsName) {
   const TempFolder folder;
   const auto capture = folder.Write("drive_3_part.pcap", Frames({1}).bytes());
-  EXPECT_THAT(WhatReadingThrows(capture), HasSubstr("drive_3_part.json is sought"));
+  EXPECT_THAT(WhatReadingThrows(capture), HasSubstr("drive_3_part.json was looked for"));
   const auto only = folder.Write("sensor.json", Metadata());
   EXPECT_THAT(FindOusterMetadata(capture), ::testing::ElementsAre(only));
   const auto drive = folder.Write("drive.json", Metadata());

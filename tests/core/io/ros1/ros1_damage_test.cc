@@ -174,6 +174,26 @@ TEST_P(DamagedBag, WithAHoleGivesWhatIsBeforeAndBehindIt) {
   }
 }
 
+TEST_P(DamagedBag, WhoseTopicsAreDefinedInABrokenChunkHasTheirOtherMessages) {
+  const auto path = Copy();
+  std::string bag = ReadFile(path);
+  const auto [begin, end] = RecordsOf(path, ros1::Op::kChunk)[0];
+  const RandomAccessFile file(path);
+  ros1::Chunk first;
+  ros1::ChunkReader(file).Read(begin, end, &first);
+  ASSERT_FALSE(first.connections.empty());
+  const std::size_t lost = first.messages.size();
+  // A part of it is gone, so that the index at the end is not where it should be.
+  bag.erase(begin + 10, end - begin - 20);
+  WriteFile(path, bag);
+  Ros1BagReader reader(path);
+  EXPECT_EQ(ReadRest(&reader).size(), FixtureMessages().size() - lost);
+  std::uint64_t counted = 0;
+  for (const Topic& topic : reader.topics()) counted += topic.messages;
+  EXPECT_EQ(counted, FixtureMessages().size() - lost);
+  EXPECT_TRUE(reader.report().damaged);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, DamagedBag, ::testing::Values("none.bag", "bz2.bag", "lz4.bag"),
                          [](const auto& param) {
                            return std::filesystem::path(param.param).stem().string();

@@ -63,6 +63,24 @@ TEST(PlaneFit, AgreesWithAnIterativeEigensolver) {
   }
 }
 
+TEST(PlaneFit, TheVarianceOfANormalIsThatOfManyFits) {
+  testing::Random random(9);
+  const Eigen::Vector3d up(0, 0, 1), narrow = up.cross(up.unitOrthogonal());
+  double squared_tilts = 0.0, variances = 0.0;
+  int planes = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const FittedPlane plane =
+        FitPlane(Patch(&random, up, {0, 0, 0}, 1.0, 0.3, 0.01), {0, 0, 0}, {}, 0.1);
+    if (!plane.exists()) continue;
+    ++planes;
+    const double tilt = plane.normal_world.cast<double>().dot(narrow);
+    squared_tilts += tilt * tilt;
+    variances += plane.normal_variance_rad2;
+  }
+  ASSERT_GT(planes, 10000);
+  EXPECT_NEAR(variances / squared_tilts, 1.0, 0.1);
+}
+
 TEST(PlaneFit, RefusesAScanLineAThickCloudAndTooFewPoints) {
   testing::Random random(3);
   const Eigen::Vector3d up(0, 0, 1), origin(0, 0, 0);

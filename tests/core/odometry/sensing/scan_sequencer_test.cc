@@ -309,6 +309,35 @@ TEST(ScanSequencer, GivesRepeatedStampsTheirOwnTime) {
   EXPECT_EQ(result.report.retimed, 4);
 }
 
+TEST(ScanSequencer, ScansOfADriverThatHangsAreDropped) {
+  std::vector<LidarScan> scans;
+  for (int i = 0; i < 20; ++i) scans.push_back(MakeScan(i, kStart + i * kPeriod));
+  for (int i = 9; i < 14; ++i)
+    scans[static_cast<std::size_t>(i)] = MakeScan(8, kStart + i * kPeriod);
+  const Result result = Sequence(scans);
+  EXPECT_EQ(result.report.stuck, 5);
+  EXPECT_EQ(result.report.points, 50);
+  EXPECT_EQ(result.LargestError(), 0);
+  EXPECT_THAT(result.scans, SizeIs(15));
+}
+
+TEST(ScanSequencer, ASensorWithoutNoiseMayRestAtTheStart) {
+  std::vector<LidarScan> scans;
+  for (int i = 0; i < 20; ++i) scans.push_back(MakeScan(std::max(i - 9, 0), kStart + i * kPeriod));
+  const Result result = Sequence(scans);
+  EXPECT_EQ(result.report.stuck, 0);
+  EXPECT_THAT(result.scans, SizeIs(20));
+}
+
+TEST(ScanSequencer, ScansWithoutAnyReturnAreNotStuck) {
+  std::vector<LidarScan> scans;
+  for (int i = 0; i < 20; ++i) scans.push_back(MakeScan(i, kStart + i * kPeriod));
+  for (int i = 9; i < 14; ++i) {
+    for (LidarPoint& point : scans[static_cast<std::size_t>(i)].points) point.xyz_m.setZero();
+  }
+  EXPECT_EQ(Sequence(scans).report.stuck, 0);
+}
+
 TEST(ScanSequencer, DropsScansThatComeTwice) {
   std::vector<LidarScan> scans = WithStamps(Regular(30));
   scans.insert(scans.begin() + 11, scans[10]);

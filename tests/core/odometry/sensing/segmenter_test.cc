@@ -179,12 +179,48 @@ TEST(Segmenter, MergesLidarsInTheBodyFrameAndWaitsForTheSlowerOne) {
   EXPECT_EQ(clouds[1].lidar_origins_body_m, origins);
 }
 
-TEST(Segmenter, DoesNotWaitForeverForALidarThatFellSilent) {
+TEST(Segmenter, DoesNotWaitForeverForALidarThatNeverSpeaks) {
   SegmenterOptions options = SmallOptions();
   options.T_body_lidar = {SE3(), SE3()};
   Segmenter segmenter(options);
   for (int t = 0; t < 3000; t += 100) segmenter.AddScan(MakeScan(t, 100, 0));
   EXPECT_GT(Drain(&segmenter).size(), 70u);
+}
+
+TEST(Segmenter, GoesOnWithoutALidarThatFallsSilentAndTakesItInAgain) {
+  SegmenterOptions options = SmallOptions();
+  options.T_body_lidar = {SE3(), SE3()};
+  Segmenter segmenter(options);
+  std::vector<SegmentCloud> clouds;
+  for (int t = 0; t < 6000; t += 100) {
+    segmenter.AddScan(MakeScan(t, 100, 0));
+    // The other one has half the rate.
+    const bool speaks = t < 1000 || t >= 4000;
+    if (speaks && t % 200 == 0) segmenter.AddScan(MakeScan(t, 100, 1));
+    for (SegmentCloud& cloud : Drain(&segmenter)) clouds.push_back(std::move(cloud));
+    if (t == 3900) {
+      EXPECT_GT(clouds.back().end_ns, 3800 * kMs);
+    }
+  }
+  segmenter.Finish();
+  for (SegmentCloud& cloud : Drain(&segmenter)) clouds.push_back(std::move(cloud));
+  // The scan with which it comes back: nobody waited for it.
+  EXPECT_LE(segmenter.counts().too_late, 100);
+  std::size_t from_first = 0, before = 0, meanwhile = 0, after = 0;
+  for (const SegmentCloud& cloud : clouds) {
+    for (const SegmentPoint& point : cloud.map_points) {
+      const bool is_first = point.lidar == 0;
+      from_first += is_first ? 1 : 0;
+      std::size_t& other = cloud.begin_ns < 1000 * kMs   ? before
+                           : cloud.begin_ns < 4000 * kMs ? meanwhile
+                                                         : after;
+      other += is_first ? 0 : 1;
+    }
+  }
+  EXPECT_GT(from_first, 0U);
+  EXPECT_GT(before, 0U);
+  EXPECT_EQ(meanwhile, 0U);
+  EXPECT_GT(after, 0U);
 }
 
 TEST(Segmenter, BridgesAShortPauseWithEmptySegmentsAndAJumpOfDaysWithOneGap) {

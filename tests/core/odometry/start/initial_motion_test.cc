@@ -58,8 +58,7 @@ TEST(InitialMotion, IsNotLookedForWhereItIsSwitchedOff) {
   InitializationOptions options;
   options.estimate_motion = false;
   const SegmentCloud cloud = FirstInterval(Twist(2.0, 0.0));
-  EXPECT_EQ(MotionOfFirstInterval(cloud, options, {}, {}, &threads),
-            Vector6d(Vector6d::Zero()));
+  EXPECT_EQ(MotionOfFirstInterval(cloud, options, {}, {}, &threads), Vector6d(Vector6d::Zero()));
   EXPECT_NEAR(MotionOfFirstInterval(cloud, {}, {}, {}, &threads)[0], 0.6, 0.05);
 }
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/python/module/exclusive.h"
+#include "core/config/config.h"
+#include "core/odometry/odometry.h"
+
+namespace trajlo::python {
+
+namespace py = pybind11;
+
+/// What a user of the module asks for, besides the options.
+struct SessionRequest {
+  py::object on_window;     ///< Called with a dict of one window; may be None.
+  py::object on_pose;       ///< Called with t_ns, (4, 4) and (6, 6); may be None.
+  bool covariance = false;  ///< Keep the covariances.
+};
+
+/// An Odometry that computes without the GIL, keeps its windows, and says so when it is misused.
+/// Members are called with the GIL held.
+class OdometrySession {
+ public:
+  OdometrySession(const RunConfig& config, const SessionRequest& request);
+
+  /// Throws StateError after Finish() or a failure, ConfigError for a LiDAR whose place is unknown,
+  /// EstimatorError, and what a callback throws: after the scan has been processed to its end.
+  void Add(const LidarScan& scan);
+  /// Throws also InputError if no point could be used.
+  void Finish();
+
+  bool is_finished() const { return is_finished_; }
+  /// These throw StateError while another thread computes.
+  const Odometry& odometry() const;
+  py::dict Windows() const;
+  py::array_t<double> Covariances() const;
+  py::array_t<double> MapPoints() const;
+  py::dict PointCounts() const;
+  /// Sentences about odd stamps, and about a part of the input that is missing.
+  std::vector<std::string> Remarks() const;
+  std::string MissingInput() const;
+
+ private:
+  void RequireOpen() const;
+  void RequireExtrinsicOf(int lidar) const;
+  template <typename Work>
+  void Compute(const Work& work);
+  /// What went wrong in Compute().
+  void Rethrow();
+  template <typename Callback>
+  void Call(const Callback& callback);
+
+  const RunConfig config_;
+  SessionRequest request_;
+  Exclusive exclusive_;
+  std::vector<WindowStatistics> windows_;
+  std::vector<Matrix6d> covariances_;
+  std::exception_ptr thrown_by_callback_;
+  std::string failure_;
+  bool is_finished_ = false;
+  int newest_lidar_ = -1;  ///< The largest number so far.
+  Odometry odometry_;
+};
+
+}  // namespace trajlo::python

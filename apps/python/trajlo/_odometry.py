@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+import warnings
+from typing import Any, Callable, Dict, Optional
+
+import numpy
+
+from . import _trajlo
+from ._config import ConfigNames, Options, make_config
+from ._trajlo import Scan, Trajectory
+from .errors import LostWarning, PartialInputWarning, TrajloWarning
+
+WindowCallback = Callable[[Dict[str, Any]], object]
+PoseCallback = Callable[[int, numpy.ndarray, numpy.ndarray], object]
+
+
+class Odometry:
+    """LiDAR odometry: scans go in, a trajectory in continuous time and a map come out.
+
+    The world frame is the body frame at the first point. The body is LiDAR 0, or whatever
+    `sensor.T_body_lidar` says. The result is that of trajlo_run, to the last bit, and does not
+    depend on the number of threads.
+
+    options     a dict with the keys of the YAML files, nested or with dots:
+                {"window.segments": 3} or {"window": {"segments": 3}}; see trajlo.options()
+    config      a YAML file or the name of a configuration (trajlo.configs()), or several, which
+                override each other; options come last
+    on_window   called with every window, as a dict with the columns of `windows`
+    on_pose     called with every pose that is final: t_ns, T_world_body (4, 4), and the covariance
+                (6, 6) of its right perturbation [rho; theta], m², m rad, rad²
+    covariance  keep these covariances
+
+    Computing releases the GIL. An exception of a callback is raised by the call that it
+    interrupts, after the scan has been processed. Raises ConfigError.
+    """
+
+    def __init__(self, options: Optional[Options] = None, *,
+                 config: Optional[ConfigNames] = None,
+                 on_window: Optional[WindowCallback] = None,
+                 on_pose: Optional[PoseCallback] = None,
+                 covariance: bool = False):
+        self._config = make_config(options, config)
+        self._session = _trajlo.Session(self._config, on_window, on_pose, covariance)
+        self._told_lost = False
+
+    def add(self, scan: Any, times_s: Any = None, *, times_ns: Any = None,
+            stamp_ns: Optional[int] = None, intensities: Any = None, lidar: int = 0) -> None:
+        """Adds a Scan, or the arrays of one: see Scan. Scans of a LiDAR come in the order of time.
+
+        Raises InputError for arrays that do not fit, ConfigError for a LiDAR that
+        sensor.T_body_lidar does not place, StateError after finish(). Warns with LostWarning.
+        """
+        if not isinstance(scan, Scan):
+            if stamp_ns is None:
+                raise TypeError("stamp_ns is missing: when the scan was measured, in nanoseconds")
+            scan = Scan(scan, times_s, times_ns=times_ns, stamp_ns=stamp_ns,
+                        intensities=intensities, lidar=lidar)
+        elif not (times_s is None and times_ns is None and stamp_ns is None
+                  and intensities is None and lidar == 0):
+            raise TypeError("a Scan has its own times, stamp, intensities and LiDAR")
+        self._session.add(scan)
+        self._warn_if_lost()
+
+    def finish(self) -> None:
+        """Processes what is left; all poses are final then, and no more scans are taken.
+
+        Raises InputError if no point could be used. Warns with LostWarning, with
+        PartialInputWarning if much was dropped, and with TrajloWarning about odd stamps.
+        """
+        self._session.finish()
+        self._warn_if_lost()
+        for remark in self._session.remarks():
+            warnings.warn(remark, TrajloWarning, stacklevel=2)
+        missing = self._session.missing_input()
+        if missing:
+            warnings.warn(missing, PartialInputWarning, stacklevel=2)
+
+    def _warn_if_lost(self) -> None:
+        t_ns = self._session.lost_at_ns()
+        if t_ns is None or self._told_lost:
+            return
+        self._told_lost = True
+        seconds = f"{t_ns // 10**9}.{t_ns % 10**9:09d}"
+        warnings.warn(f"the estimator got lost at {seconds} s; poses from there on are not to be "
+                      "trusted (windows shows what happened)", LostWarning, stacklevel=3)
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """The poses that are final, T_world_body: all of them after finish(). A copy."""
+        return self._session.trajectory()
+
+    @property
+    def windows(self) -> Dict[str, numpy.ndarray]:
+        """The columns of windows.csv, (W,) each, and begin_ns and end_ns, which are exact."""
+        return self._session.windows()
+
+    @property
+    def map(self) -> numpy.ndarray:
+        """(M, 3) float64: the finest level of the local map, metres, world frame. A copy."""
+        return self._session.map()
+
+    @property
+    def covariances(self) -> numpy.ndarray:
+        """(N, 6, 6) float64, one for each pose of the trajectory: [rho; theta] as for on_pose."""
+        return self._session.covariances()
+
+    @property
+    def point_counts(self) -> Dict[str, int]:
+        """What became of the points: received, kept, and those that were dropped, by reason."""
+        return self._session.point_counts()
+
+    @property
+    def lost_at_ns(self) -> Optional[int]:
+        """When the estimator got lost, if it did."""
+        return self._session.lost_at_ns()
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether finish() has been called."""
+        return self._session.is_finished
+
+    @property
+    def config(self) -> str:
+        """All options as they are, as YAML with explanations: config.yaml of a run."""
+        return self._config.dump()

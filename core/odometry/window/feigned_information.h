@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "factors/registration_point.h"
+#include "factors/segment_registration.h"
+
+namespace trajlo {
+
+/// The information that points seem to give because the normals of their planes are noisy.
+///
+/// A wall along x tells nothing about x: every normal is perpendicular to it. But the normals come
+/// from a few map points each. One that is tilted by e has the component e along x, and the point
+/// seems to hold x with information w e². In the mean over noise that is
+///
+///   F = sum_i w_i G_i Cov(n_i) G_iᵀ,   G_i = [I; [x_i]x],   Cov(n_i) = v_i (I - n_i n_iᵀ),
+///
+/// with w_i the weight of the point in H (kernel included), x_i its place, j_i = G_i n_i its
+/// Jacobian and v_i the variance of its normal. H - F is what the true planes would have given.
+struct FeignedInformation {
+  /// F for a rigid perturbation [rho; theta] of the body frame at the end of the segment.
+  Matrix6d mean = Matrix6d::Zero();
+  /// Sums of w_i v_i and of (w_i v_i)². With N = sum² / sum_of_squares normals that are
+  /// independent, what is really feigned differs from its mean by the share sqrt(2 / N).
+  double sum = 0.0;
+  double sum_of_squares = 0.0;
+};
+
+/// Of the points of one segment.
+FeignedInformation FeignedBy(const std::vector<RegistrationPoint>& points, const SE3& T_begin,
+                             const SE3& T_end, const RegistrationNoise& noise);
+
+}  // namespace trajlo

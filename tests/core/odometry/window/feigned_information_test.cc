@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/window/feigned_information.h"
+
+#include <gtest/gtest.h>
+
+#include "core/odometry/health/condition.h"
+#include "tests/support/random_poses.h"
+
+namespace trajlo {
+namespace {
+
+using testing::Random;
+
+/// Points of a corridor along x, or of a room, whose normals are off by noise.
+std::vector<RegistrationPoint> NoisyPoints(Random* random, int count, bool is_room,
+                                           double normal_sigma_rad) {
+  std::vector<RegistrationPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const int axis = is_room ? i % 3 : 1 + i % 2;
+    Eigen::Vector3d p(random->Uniform(-8, 8), random->Uniform(-2, 2), random->Uniform(-2, 2));
+    p[axis] = std::copysign(3.0, p[axis]);
+    Eigen::Vector3d normal = Eigen::Vector3d::Unit(axis);
+    const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+    normal += random->Gaussian(normal_sigma_rad) * u + random->Gaussian(normal_sigma_rad) * v;
+    normal.normalize();
+    points.push_back({p, random->Uniform(0, 1), normal, normal.dot(p), random->Uniform(0.3, 1),
+                      normal_sigma_rad * normal_sigma_rad});
+  }
+  return points;
+}
+
+/// H of a rigid motion of the segment, in the frame of its end.
+Matrix6d RigidH(const std::vector<RegistrationPoint>& points, const SE3& T_begin, const SE3& T_end,
+                const RegistrationNoise& noise) {
+  Eigen::Matrix<double, 12, 6> A;
+  A << se3::Adjoint(T_begin.Inverse() * T_end), Matrix6d::Identity();
+  return A.transpose() * LinearizeSegment(points, T_begin, T_end, noise).H * A;
+}
+
+TEST(FeignedInformation, IsInTheMeanWhatNoisyNormalsAddToTheTrueInformation) {
+  Random random(4);
+  const RegistrationNoise noise = {0.05, {KernelKind::kNone, 1.0}};
+  const SE3 T_begin = random.Pose();
+  const SE3 T_end = Plus(T_begin, random.Tangent(0.3, 0.2));
+  constexpr double kSigma_rad = 0.1;
+  Matrix6d truth = Matrix6d::Zero(), noisy = Matrix6d::Zero(), feigned = Matrix6d::Zero();
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<RegistrationPoint> points = NoisyPoints(&random, 100, false, kSigma_rad);
+    noisy += RigidH(points, T_begin, T_end, noise);
+    feigned += FeignedBy(points, T_begin, T_end, noise).mean;
+    for (RegistrationPoint& point : points) {
+      // The corridor has normals along y and z only.
+      int axis;
+      point.normal_world.cwiseAbs().maxCoeff(&axis);
+      point.normal_world = Eigen::Vector3d::Unit(axis);
+    }
+    truth += RigidH(points, T_begin, T_end, noise);
+  }
+  const double size = feigned.diagonal().maxCoeff();
+  ASSERT_GT((noisy - truth).diagonal().maxCoeff(), 0.5 * size);
+  // Noise of 0.1 rad also shortens the true component of a normal, by twice its variance.
+  EXPECT_LT((noisy - feigned - truth).norm(), 0.1 * size + 0.03 * truth.norm());
+  // Along the corridor there is nothing but noise.
+  Vector6d along = Vector6d::Zero();
+  along.head<3>() = T_end.q.conjugate() * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(along.dot((noisy - feigned) * along) / along.dot(noisy * along), 0.0, 0.1);
+}
+
+Window WindowOf(std::vector<RegistrationPoint> points) {
+  Window window;
+  window.noise = {0.1, {KernelKind::kCauchy, 1.0}};
+  Segment segment;
+  segment.points = std::move(points);
+  segment.registration = LinearizeSegment(segment.points, SE3(), SE3(), window.noise);
+  segment.feigned = FeignedBy(segment.points, SE3(), SE3(), window.noise);
+  window.segments.push_back(std::move(segment));
+  return window;
+}
+
+TEST(FeignedInformation, ACorridorOfNoisyNormalsTellsNothingAndARoomDoes) {
+  Random random(5);
+  for (int trial = 0; trial < 50; ++trial) {
+    Window corridor = WindowOf(NoisyPoints(&random, 1000, false, 0.15));
+    WindowCondition condition = ConditionOf(corridor, 10.0);
+    EXPECT_EQ(condition.smallest_eigenvalue, 0.0);
+    EXPECT_GT(std::abs(condition.weak_direction[0]), 0.9);
+    // What the noise seems to tell: 5 cm.
+    corridor.segments[0].feigned = {};
+    condition = ConditionOf(corridor, 10.0);
+    EXPECT_GT(condition.smallest_eigenvalue, 1.0 / (0.05 * 0.05));
+
+    const Window room = WindowOf(NoisyPoints(&random, 1000, true, 0.15));
+    EXPECT_GT(ConditionOf(room, 10.0).smallest_eigenvalue, 1.0 / (0.02 * 0.02));
+  }
+}
+
+TEST(FeignedInformation, AsManyErrorsAsUnknownsTellNothing) {
+  Random random(6);
+  const Window few = WindowOf(NoisyPoints(&random, 60, true, 0.0));
+  EXPECT_EQ(ConditionOf(few, 10.0).smallest_eigenvalue, 0.0);
+  EXPECT_GT(ConditionOf(few, 1.0).smallest_eigenvalue, 1.0);
+}
+
+}  // namespace
+}  // namespace trajlo
