@@ -17,7 +17,9 @@ struct LostOptions {
   double max_correction_rad = 1.0;
   double max_speed_m_s = 100.0;
   double max_turn_rate_rad_s = 60.0;
-  double max_search_s = 5.0;
+  /// After a pause, or when a covered LiDAR sees again, the place is sought in the map. When so much
+  /// data has come and it is not found, the estimator is lost.
+  static constexpr double kMaxSearch_s = 5.0;
   double degenerate_sigma_m = 0.1;
 
   template <typename Describer>
@@ -35,9 +37,6 @@ struct LostOptions {
       "No pose is farther from its neighbours than a body of this speed gets.");
     d(OptionFor::kExperts, "max_turn_rate_rad_s", max_turn_rate_rad_s, Range<double>{0.1, 1e4},
       "The same for its rotation.");
-    d(OptionFor::kExperts, "max_search_s", max_search_s, Range<double>{0.0, 1e6},
-      "After a pause, or when a covered LiDAR sees again, the place is sought in the map. When so "
-      "much data has come and it is not found, the estimator is lost.");
     d(OptionFor::kExperts, "degenerate_sigma_m", degenerate_sigma_m, Range<double>{1e-4, 1e3},
       "A direction in which the points of a window hold it to a larger standard deviation counts "
       "as degenerate (a well-spread scene has 0.01).");

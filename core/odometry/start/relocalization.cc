@@ -33,7 +33,7 @@ constexpr double kLongestRay_m = 20.0;
 /// Two places disagree on a point if the one's plane is as far as this from it under the other.
 constexpr double kDisagreement_m = 0.3;
 /// What makes a place clear: this share of all points, ...
-constexpr double kMinAgreement = 0.3;
+constexpr double kMinAgreement = 0.5;
 /// ... and of those that have a plane, near or far, ...
 constexpr double kMinPrecision = 0.6;
 /// ... so many times the points that a rival has, of those that only one of them has, which must be

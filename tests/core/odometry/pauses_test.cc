@@ -133,7 +133,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Pauses,
                                                               "courtyard_os1_16", "street_hdl64"),
                                             ::testing::Values(0.5, 1.0, 2.0, 3.0, 5.0)));
 
-/// In the others the body may be where the map does not reach, or where it looks the same twice.
+/// In the others the body may be where the map does not reach, as in the next room of the office, or
+/// where it looks the same twice.
 class ShortPauses : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ShortPauses, ThePlaceIsFoundAgain) {
@@ -143,7 +144,7 @@ TEST_P(ShortPauses, ThePlaceIsFoundAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShortPauses,
-                         ::testing::Values("hall_os1_16", "office_os0_64", "courtyard_os1_16"));
+                         ::testing::Values("hall_os1_16", "courtyard_os1_16", "street_hdl64"));
 
 TEST(Covered, APlaceIsFoundAgainWhenTheLidarSeesAgain) {
   simulation::FaultConfig faults;
