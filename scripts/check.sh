@@ -66,13 +66,13 @@ python_files() { { git ls-files -- '*.py'; with_interpreter python3; } | sort -u
 format() { cpp_files | xargs clang-format-14 --dry-run --Werror; }
 
 # Every file that somebody writes, except those that cannot hold a comment or are prose:
-# default.yaml is what trajlo_run --show_config writes.
+# default.yaml and expert.yaml are what trajlo_run --show_config and --show_expert_config write.
 spdx() {
   local missing
   missing="$({
     git ls-files -- '*.cc' '*.h' '*.py' '*.sh' '*.js' '*.css' '*.html' '*.cmake' '*CMakeLists.txt' \
       '*.yaml' '*Snakefile' '*.supp' 'scripts/packages*.txt' .clang-tidy \
-      ':!*/fixtures/*' ':!*/fuzz/corpus/*' ':!config/default.yaml'
+      ':!*/fixtures/*' ':!*/fuzz/corpus/*' ':!config/default.yaml' ':!config/expert.yaml'
     with_interpreter '(bash|python3)'
   } | sort -u | while read -r file; do
     head -n 5 "$file" | grep -q 'SPDX-License-Identifier: MIT' || echo "  $file"

@@ -14,9 +14,9 @@ bool HasFiniteLength(const Eigen::MatrixBase<Numbers>& numbers) {
   return std::isfinite(numbers.squaredNorm());
 }
 
-/// True if what was read from a file can be a pose.
+/// True if what was read from a file can be a pose: also one that has flown off to 1e200 m.
 inline bool HasFiniteLength(const SE3& pose) {
-  return HasFiniteLength(pose.q.coeffs()) && HasFiniteLength(pose.t);
+  return HasFiniteLength(pose.q.coeffs()) && pose.t.allFinite();
 }
 
 }  // namespace trajlo

@@ -130,7 +130,7 @@ TEST(TrajloInfo, TheModelOfAVelodyneThatIsGivenStandsInTheCommandToUse) {
   const Outcome outcome = Info({path, "--velodyne_model=VLP-16"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
-              AllOf(HasSubstr("VLP-16 packets"), HasSubstr("--set=input.velodyne_model=VLP-16")));
+              AllOf(HasSubstr("VLP-16 packets"), HasSubstr("input.velodyne_model=VLP-16")));
 }
 
 }  // namespace

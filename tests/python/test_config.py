@@ -84,7 +84,7 @@ class ConfigTest(FolderTest):
 
     def test_a_configuration_that_is_not_there(self):
         self.assertIn("did you mean 'ouster'?", self.refused(config="ouster1"))
-        self.assertIn("no such config file", self.refused(config="missing.yaml"))
+        self.assertIn("No such file", self.refused(config="missing.yaml"))
         bad = self.folder / "bad.yaml"
         bad.write_text("window:\n  segmants: 3\n")
         self.assertIn(f"{bad}:2:3: unknown key", self.refused(config=bad))

@@ -223,7 +223,7 @@ class CallbackTest(FolderTest):
         self.assertEqual(self.tum_of(odometry.trajectory), self.tum_of(run_room().trajectory))
 
     def test_callbacks_do_not_keep_a_finished_odometry(self):
-        odometry = trajlo.Odometry({"threads": 1}, on_window=lambda window: odometry.trajectory)
+        odometry = trajlo.Odometry({"threads": 1}, on_window=lambda window: odometry.trajectory)  # noqa: F821
         for index in range(4):
             odometry.add(room_scan(index))
         odometry.finish()

@@ -10,7 +10,7 @@ import numpy as np
 from bag_writer import write_bag
 from support import FolderTest
 
-from trajlo_campaign import (draw, execute, file_faults, flags, judge, message_file, point_arrays,
+from trajlo_campaign import (draw, execute, file_faults, flags, judge, message_file,
                              point_faults, prepare, report, scan_folder, scenes, simulator_faults,
                              stamp_faults, truth)
 

@@ -23,7 +23,7 @@ from ._odometry import Odometry
 from ._recording import Recording, open
 from ._simulation import Simulation, scenarios, simulate
 from ._trajlo import Scan, Trajectory
-from ._trajlo import version as __version__
+from ._trajlo import version as __version__  # noqa: F401
 from .errors import (ConfigError, Error, EstimatorError, EvaluationError, InputError, LostWarning,
                      OutputError, PartialInputWarning, StateError, TrajloWarning, UsageError)
 

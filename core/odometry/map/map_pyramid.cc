@@ -100,7 +100,8 @@ bool MapPyramid::IsWideAndThin(const FittedPlane& plane, const Eigen::Vector3f& 
   const float distance_m = std::abs(plane.normal_world.dot(from_center) - plane.offset_m);
   return plane.thickness_m <= static_cast<float>(PlaneFitOptions::kHalfWeightThickness_m) &&
          plane.thickness_m < static_cast<float>(plane_.max_wide_flatness) * plane.width_m &&
-         distance_m <= static_cast<float>(PlaneFitOptions::kMaxWideDistanceInWidths) * plane.width_m;
+         distance_m <=
+             static_cast<float>(PlaneFitOptions::kMaxWideDistanceInWidths) * plane.width_m;
 }
 
 void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const {

@@ -46,7 +46,7 @@ TEST(SolverVariants, MistakesNameFileAndLine) {
   EXPECT_THAT(error("variants:\n  - {name: a, set: \"solver.knd=ceres\"}\n"),
               HasSubstr("did you mean 'solver.kind'"));
   EXPECT_THAT(error("variants: [\n"), HasSubstr("not valid YAML"));
-  EXPECT_THAT(ConfigErrorOf([] { LoadVariants("/nowhere.yaml", {}); }), HasSubstr("no such file"));
+  EXPECT_THAT(ConfigErrorOf([] { LoadVariants("/nowhere.yaml", {}); }), HasSubstr("No such file"));
 }
 
 TEST(SolverVariants, OnlySolverKernelAndLinearisationConcernASingleWindow) {

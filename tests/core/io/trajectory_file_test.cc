@@ -81,7 +81,8 @@ TEST_F(TrajectoryFileTest, NumbersWhoseLengthIsInfiniteAreNoPose) {
   // Found by fuzzing: such a quaternion was normalised to zeros, such a matrix taken for a
   // rotation.
   EXPECT_THAT(Read("1 0 0 0 1e200 0 0 0\n2 0 0 0 0 0 0 1\n").t_ns, ElementsAre(2'000'000'000));
-  EXPECT_THAT(Read("1,1e200,0,0,1,0,0,0\n3,0,0,0,1,0,0,0\n").t_ns, ElementsAre(3));
+  // One that has flown off is a pose.
+  EXPECT_THAT(Read("1,1e200,0,0,1,0,0,0\n3,0,0,0,1,0,0,0\n").t_ns, ElementsAre(1, 3));
   EXPECT_THAT(ErrorOf("1e200 1e200 0 0 -1e200 1e200 0 0 0 0 1 0\n"), HasSubstr("not finite"));
 }
 

@@ -13,6 +13,7 @@
 namespace trajlo::testing {
 namespace {
 
+using ::testing::_;
 using ::testing::ElementsAre;
 using ::testing::FieldsAre;
 using ::testing::HasSubstr;
@@ -41,8 +42,9 @@ TEST_P(Written, BagReadsBackToTheLastByte) {
   Ros1BagReader reader(folder / "a.bag");
   EXPECT_THAT(
       reader.topics(),
-      ElementsAre(FieldsAre("/points", "sensor_msgs/PointCloud2", Encoding::kRos1, 20U, ""),
-                  FieldsAre("/pose", "geometry_msgs/PoseStamped", Encoding::kRos1, 40U, "")));
+      ElementsAre(
+          FieldsAre("/points", "sensor_msgs/PointCloud2", Encoding::kRos1, 20U, "", _, _, _),
+          FieldsAre("/pose", "geometry_msgs/PoseStamped", Encoding::kRos1, 40U, "", _, _, _)));
   EXPECT_EQ(ReadRest(&reader), FixtureMessages());
   EXPECT_FALSE(reader.report().damaged);
 }
