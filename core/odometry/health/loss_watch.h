@@ -17,8 +17,8 @@ struct LostOptions {
   double max_correction_rad = 1.0;
   double max_speed_m_s = 100.0;
   double max_turn_rate_rad_s = 60.0;
-  /// After a pause, or when a covered LiDAR sees again, the place is sought in the map. When so much
-  /// data has come and it is not found, the estimator is lost.
+  /// After a pause, or when a covered LiDAR sees again, the place is sought in the map. When so
+  /// much data has come and it is not found, the estimator is lost.
   static constexpr double kMaxSearch_s = 5.0;
   double degenerate_sigma_m = 0.1;
 

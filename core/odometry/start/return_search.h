@@ -41,8 +41,8 @@ class ReturnSearch {
   void Add(SegmentCloud segment);
   /// Whether enough has come since the last look.
   bool IsDue() const;
-  /// Whether it has looked long enough (lost.max_search_s of data).
-  bool IsHopeless() const { return searched_s_ >= options_.lost.max_search_s; }
+  /// Whether it has looked long enough (LostOptions::kMaxSearch_s of data).
+  bool IsHopeless() const { return searched_s_ >= LostOptions::kMaxSearch_s; }
   bool HasPoints() const { return !segments_.empty(); }
   bool HasLooked() const { return looked_; }
 

@@ -133,8 +133,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Pauses,
                                                               "courtyard_os1_16", "street_hdl64"),
                                             ::testing::Values(0.5, 1.0, 2.0, 3.0, 5.0)));
 
-/// In the others the body may be where the map does not reach, as in the next room of the office, or
-/// where it looks the same twice.
+/// In the others the body may be where the map does not reach, as in the next room of the office,
+/// or where it looks the same twice.
 class ShortPauses : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ShortPauses, ThePlaceIsFoundAgain) {
