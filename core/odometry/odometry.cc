@@ -74,6 +74,11 @@ void Odometry::ProcessSegments() {
 }
 
 void Odometry::Take(SegmentCloud cloud) {
+  if (cloud.is_gap && !starvation_.was_fed()) {
+    SettleWindow(cloud.end_ns);
+    window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
+    return;
+  }
   if (cloud.is_gap && !search_) BeginSearch();
   if (!search_) {
     Step(std::move(cloud));
@@ -105,7 +110,7 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
   window_ = MakeWindow(cloud.end_ns, T_end);
   window_.begin_flags = flags;
   if (duration_s > 0.0) window_.begin_velocity = tau / duration_s;
-  starvation_.Fed(cloud.end_ns);
+  starvation_.Begin(cloud.end_ns);
 }
 
 /// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.
@@ -174,8 +179,10 @@ void Odometry::Leave(WindowStatistics* statistics) {
   const SE3 T_begin = window_.T_world_begin;
   const Segment oldest = Marginalize(options_.marginalization, &window_);
   statistics->milliseconds_marginalize = watch.Milliseconds();
-  // What no plane agrees with may be a hand before the LiDAR.
-  if ((oldest.flags & kFlagNoPoints) == 0) AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
+  // What no plane agrees with may be a hand before the LiDAR. The first points agree with nothing.
+  if ((oldest.flags & kFlagNoPoints) == 0 || !starvation_.was_fed()) {
+    AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
+  }
   map_.RemoveFar(oldest.T_world_end.t);
   statistics->milliseconds_map = watch.Milliseconds();
 }

@@ -158,7 +158,7 @@ TEST_F(TrajloRunTest, AWorldThatDisappearsIsFourAndSaysWhen) {
   const Outcome outcome = Run();
   EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("lost"));
-  EXPECT_GT(Trajectory().size(), 60u) << "what was computed is kept";
+  EXPECT_GT(Trajectory().size(), 30u) << "what was computed is kept";
   EXPECT_EQ(RunJson()["exit"]["code"], 4);
 }
 

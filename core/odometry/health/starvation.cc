@@ -34,6 +34,7 @@ bool IsStarved(const Window& window, const Segment& segment, double min_share) {
 }
 
 bool StarvationWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {
+  if (!was_fed_) return false;
   const double unseen_s = 1e-9 * static_cast<double>(t_ns - fed_until_ns_);
   return 3.0 * UnseenSigma(density[0], unseen_s) > kBridged_m ||
          3.0 * UnseenSigma(density[3], unseen_s) > kBridged_rad;

@@ -16,8 +16,15 @@ bool IsStarved(const Window& window, const Segment& segment, double min_share);
 /// be looked for. See ReturnSearch.
 class StarvationWatch {
  public:
+  /// A map begins, of what was seen until `end_ns`.
+  void Begin(std::int64_t end_ns) { fed_until_ns_ = end_ns; }
   /// A segment that ends at `end_ns` was held by its points.
-  void Fed(std::int64_t end_ns) { fed_until_ns_ = end_ns; }
+  void Fed(std::int64_t end_ns) {
+    fed_until_ns_ = end_ns;
+    was_fed_ = true;
+  }
+  /// False: there is no place yet that could be found again.
+  bool was_fed() const { return was_fed_; }
 
   std::int64_t fed_until_ns() const { return fed_until_ns_; }
   /// Whether the prediction for `t_ns` is too uncertain to start from; `density` is that of the
@@ -26,6 +33,7 @@ class StarvationWatch {
 
  private:
   std::int64_t fed_until_ns_ = 0;
+  bool was_fed_ = false;
 };
 
 /// Standard deviation of a body's position (m) or attitude (rad) that moved unseen for `duration_s`

@@ -41,6 +41,7 @@ RunSummary ExampleSummary() {
   window.points = 100;
   window.inliers = 80;
   window.flags = kFlagGap | kFlagLost;
+  s.flags = PoseFlags({{0, SE3(), 0}, {1'000'000'000, SE3(), kFlagGap}}, std::nullopt);
   window.milliseconds_solve = 3.0;
   s.windows.Add(window);
   return s;
@@ -149,7 +150,7 @@ TEST(SummaryTable, NamesWhatMatters) {
   EXPECT_THAT(table, HasSubstr("11 of 12 scans"));
   EXPECT_THAT(table, HasSubstr("10 not finite, 20 too near of 1000 points"));
   EXPECT_THAT(table, HasSubstr("80 % inliers"));
-  EXPECT_THAT(table, HasSubstr("1 gap, 1 lost"));
+  EXPECT_THAT(table, HasSubstr("gap 1 (1.0 s)"));
   EXPECT_THAT(table, HasSubstr("4.0 x real time"));
   EXPECT_THAT(table, HasSubstr("at 1700000001.000000001 s"));
   EXPECT_THAT(table, HasSubstr("lost (exit code 4), in out"));
