@@ -131,7 +131,12 @@ TEST_P(Pauses, ThePlaceIsFoundAgainOrTheRunIsLost) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Pauses,
                          ::testing::Combine(::testing::Values("hall_os1_16", "office_os0_64",
                                                               "courtyard_os1_16", "street_hdl64"),
-                                            ::testing::Values(0.5, 1.0, 2.0, 3.0, 5.0)));
+                                            ::testing::Values(0.5, 1.0, 2.0, 3.0, 5.0)),
+                         [](const auto& test) {
+                           const auto [name, pause_s] = test.param;
+                           const int tenths = static_cast<int>(10.0 * pause_s);
+                           return std::string(name) + "_" + std::to_string(tenths) + "_tenths";
+                         });
 
 /// In the others the body may be where the map does not reach, as in the next room of the office,
 /// or where it looks the same twice.
@@ -144,7 +149,8 @@ TEST_P(ShortPauses, ThePlaceIsFoundAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShortPauses,
-                         ::testing::Values("hall_os1_16", "courtyard_os1_16", "street_hdl64"));
+                         ::testing::Values("hall_os1_16", "courtyard_os1_16", "street_hdl64"),
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(Covered, APlaceIsFoundAgainWhenTheLidarSeesAgain) {
   simulation::FaultConfig faults;
