@@ -133,9 +133,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Pauses,
                                                               "courtyard_os1_16", "street_hdl64"),
                                             ::testing::Values(0.5, 1.0, 2.0, 3.0, 5.0)),
                          [](const auto& test) {
-                           const auto [name, pause_s] = test.param;
-                           const int tenths = static_cast<int>(10.0 * pause_s);
-                           return std::string(name) + "_" + std::to_string(tenths) + "_tenths";
+                           const int tenths = static_cast<int>(10.0 * std::get<1>(test.param));
+                           return std::string(std::get<0>(test.param)) + "_" +
+                                  std::to_string(tenths) + "_tenths";
                          });
 
 /// In the others the body may be where the map does not reach, as in the next room of the office,
