@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "manifolds/eigen_abi.h"
+
 namespace trajlo {
 
 /// Where up is, from how a body was carried: whatever the mounting, most bodies turn about the
