@@ -61,7 +61,8 @@ class FolderTest(unittest.TestCase):
         # A library may know of addresses; RenderingTest sees that it asks for none.
         text = re.sub(r"<script data-library>.*?</script>", "", text, flags=re.DOTALL)
         bare = re.sub(r"base64,[A-Za-z0-9+/=]+", "base64,", text)
-        addresses = re.findall(r"""(?:src|href|srcset|data|action)\s*=\s*["']?([^"'\s>]+)""", bare)
+        addresses = re.findall(
+            r"""(?<![\w-])(?:src|href|srcset|data|action)\s*=\s*["']?([^"'\s>]+)""", bare)
         # The pages of single runs are only linked.
         outside = [address for address in addresses
                    if not address.startswith(("data:", "#")) and not address.endswith("/run.html")]
