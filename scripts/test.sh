@@ -31,5 +31,15 @@ done
 export TRAJLO_CMAKE_ARGUMENTS="-DTRAJLO_BUILD_PYTHON=ON ${TRAJLO_CMAKE_ARGUMENTS:-}"
 "$root/scripts/build.sh"
 # A test that hangs is a failure, not a reason to wait for ever.
-ctest --test-dir "$build" --parallel "$(nproc)" --timeout 300 --output-on-failure \
-  --no-tests=error "${ctest_arguments[@]}"
+if ! ctest --test-dir "$build" --parallel "$(nproc)" --timeout 300 --output-on-failure \
+  --no-tests=error "${ctest_arguments[@]}"; then
+  # Thousands of lines may lie between a failure and here: the ends of what the failed ones printed.
+  awk '/^[0-9]+\/[0-9]+ Testing: / { count = 0; failed = 0 }
+       { line[count++ % 30] = $0 }
+       /^Test Failed\.$/ || /^Test timeout/ { failed = 1 }
+       /time elapsed: / && failed {
+         print ""
+         for (i = count > 30 ? count - 30 : 0; i < count; ++i) print line[i % 30]
+       }' "$build/Testing/Temporary/LastTest.log"
+  exit 1
+fi
