@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/odometry/sensing/turn_up.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -16,51 +17,83 @@ double EvenShare(std::size_t index) {
   return 1.0 - (x - std::floor(x));
 }
 
+/// Takes points to the world whose times mostly lie in the interval of the one before.
+class PlaceAlong {
+ public:
+  /// `trajectory` must outlive it.
+  explicit PlaceAlong(const Trajectory& trajectory) : poses_(trajectory.poses()) {}
+
+  /// False outside the trajectory.
+  bool Enter(std::int64_t t_ns) {
+    if (t_ns >= begin_ns_ && t_ns <= end_ns_) return true;
+    if (poses_.size() < 2 || t_ns < poses_.front().t_ns || t_ns > poses_.back().t_ns) return false;
+    const auto end =
+        std::lower_bound(poses_.begin() + 1, poses_.end(), t_ns,
+                         [](const ControlPose& pose, std::int64_t t) { return pose.t_ns < t; });
+    const auto begin = end - 1;
+    begin_ns_ = begin->t_ns;
+    end_ns_ = end->t_ns;
+    motion_ = SegmentMotion(begin->T_world_body, end->T_world_body);
+    return true;
+  }
+  /// At a time of the interval that was entered.
+  Eigen::Vector3d World(std::int64_t t_ns, const Eigen::Vector3d& p_body) const {
+    return motion_.ToWorld(
+        static_cast<double>(t_ns - begin_ns_) / static_cast<double>(end_ns_ - begin_ns_), p_body);
+  }
+
+ private:
+  const std::vector<ControlPose>& poses_;
+  std::int64_t begin_ns_ = 1, end_ns_ = 0;  ///< None at first.
+  SegmentMotion motion_{SE3(), SE3()};
+};
+
 std::int64_t FloorDivide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
 }  // namespace
 
-std::optional<Eigen::Vector3f> ScanSampler::InBody(const LidarPoint& point,
-                                                   const SE3& T_body_lidar) const {
-  const double range_m = point.xyz_m.cast<double>().norm();
-  const bool usable = range_m >= sensing_.min_range_m && range_m <= sensing_.max_range_m;
-  if (!usable) return std::nullopt;  // NaN, too
-  const auto turn_rad = static_cast<float>(sensing_.vertical_correction_deg * M_PI / 180.0);
-  return (T_body_lidar * TurnUp(point.xyz_m, turn_rad).cast<double>()).cast<float>();
-}
-
 void ScanSampler::Note(const LidarScan& scan) {
-  const auto lidar = static_cast<std::size_t>(scan.lidar_id);
-  const SE3 T_body_lidar =
-      lidar < sensing_.T_body_lidar.size() ? sensing_.T_body_lidar[lidar] : SE3();
-  std::optional<std::int64_t> last_index;
-  Moment* moment = nullptr;  // the one of last_index, if it is kept
+  for (std::size_t i = variates_.size(); i < scan.points.size(); ++i) {
+    variates_.push_back(static_cast<float>(-std::log(EvenShare(i))));
+  }
+  const double min_squared = sensing_.min_range_m * sensing_.min_range_m;
+  const double max_squared = sensing_.max_range_m * sensing_.max_range_m;
+  const auto lidar = static_cast<std::uint16_t>(scan.lidar_id);
+  std::int64_t begin_ns = 0, end_ns = 0;  // of the moment of the last point
+  Moment* moment = nullptr;               // if it is kept
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const LidarPoint& point = scan.points[i];
     if (!origin_ns_) origin_ns_ = point.t_ns;
-    const std::int64_t index = FloorDivide(point.t_ns - *origin_ns_, options_.moment_ns);
-    if (index != last_index) moment = index % stride_ == 0 ? &moments_[index] : nullptr;
-    last_index = index;
-    if (moment == nullptr) continue;
-    if (const auto p_body = InBody(point, T_body_lidar)) {
-      // Weighted sampling without replacement: the smallest of exponential variates whose rates
-      // are the weights (Efraimidis and Spirakis, 2006).
-      const auto key = static_cast<float>(-std::log(EvenShare(i)) / point.xyz_m.norm());
-      moment->push_back({*p_body, point.intensity, point.t_ns, key});
+    if (point.t_ns < begin_ns || point.t_ns >= end_ns) {
+      const std::int64_t index = FloorDivide(point.t_ns - *origin_ns_, options_.moment_ns);
+      begin_ns = *origin_ns_ + index * options_.moment_ns;
+      end_ns = begin_ns + options_.moment_ns;
+      moment = MomentAt(index);
     }
+    if (moment == nullptr) continue;
+    const double squared = point.xyz_m.cast<double>().squaredNorm();
+    const bool is_usable = squared >= min_squared && squared <= max_squared;  // no NaN
+    if (!is_usable) continue;
+    // Weighted sampling without replacement: the smallest of exponential variates whose rates are
+    // the weights (Efraimidis and Spirakis, 2006).
+    const float key = variates_[i] / std::sqrt(static_cast<float>(squared));
+    moment->push_back({point.xyz_m, point.intensity, point.t_ns, key, lidar});
   }
   for (auto& [index, kept] : moments_) Thin(&kept);
   while (moments_.size() > options_.max_moments) DropEveryOther();
 }
 
-void ScanSampler::Thin(Moment* moment) const {
-  if (moment->size() <= options_.points_per_moment) return;
-  const auto end = moment->begin() + static_cast<std::ptrdiff_t>(options_.points_per_moment);
-  const auto by_key = [](const Kept& a, const Kept& b) {
-    return a.key != b.key ? a.key < b.key : a.t_ns < b.t_ns;
-  };
-  std::nth_element(moment->begin(), end, moment->end(), by_key);
-  moment->erase(end, moment->end());
+void ScanSampler::Thin(Moment* moment) {
+  const std::size_t count = options_.points_per_moment;
+  if (moment->size() <= count) return;
+  keys_.clear();
+  for (const Kept& kept : *moment) keys_.push_back(kept.key);
+  const auto largest = keys_.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+  std::nth_element(keys_.begin(), largest, keys_.end());
+  moment->erase(std::remove_if(moment->begin(), moment->end(),
+                               [&](const Kept& kept) { return kept.key > *largest; }),
+                moment->end());
+  if (moment->size() > count) moment->resize(count);  // equal keys
   moment->shrink_to_fit();
 }
 
@@ -72,14 +105,19 @@ void ScanSampler::DropEveryOther() {
 }
 
 std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory) const {
+  const auto turn_rad = static_cast<float>(sensing_.vertical_correction_deg * M_PI / 180.0);
+  PlaceAlong place_along(trajectory);
   std::vector<WorldPoint> points;
   for (const auto& [index, moment] : moments_) {
     const std::int64_t moment_ns = *origin_ns_ + index * options_.moment_ns;
     for (const Kept& kept : moment) {
-      const std::optional<SE3> T_world_body = trajectory.At(kept.t_ns);
-      if (!T_world_body) continue;
-      const Eigen::Vector3d p_world = *T_world_body * kept.p_body_m.cast<double>();
-      points.push_back({p_world.cast<float>(), kept.intensity, moment_ns});
+      if (!place_along.Enter(kept.t_ns)) continue;
+      const Eigen::Vector3d p_lidar = TurnUp(kept.p_lidar_m, turn_rad).cast<double>();
+      const Eigen::Vector3d p_body = kept.lidar < sensing_.T_body_lidar.size()
+                                         ? sensing_.T_body_lidar[kept.lidar] * p_lidar
+                                         : p_lidar;
+      points.push_back(
+          {place_along.World(kept.t_ns, p_body).cast<float>(), kept.intensity, moment_ns});
     }
   }
   return points;

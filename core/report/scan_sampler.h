@@ -46,19 +46,23 @@ class ScanSampler {
 
  private:
   struct Kept {
-    Eigen::Vector3f p_body_m;
+    Eigen::Vector3f p_lidar_m;
     float intensity;
     std::int64_t t_ns;
     float key;  ///< Those with the smallest are kept.
+    std::uint16_t lidar;
   };
   using Moment = std::vector<Kept>;
 
-  std::optional<Eigen::Vector3f> InBody(const LidarPoint& point, const SE3& T_body_lidar) const;
-  void Thin(Moment* moment) const;
+  /// Null if it is not kept.
+  Moment* MomentAt(std::int64_t index) { return index % stride_ == 0 ? &moments_[index] : nullptr; }
+  void Thin(Moment* moment);
   void DropEveryOther();
 
   SegmenterOptions sensing_;
   ScanSamplingOptions options_;
+  std::vector<float> variates_;  ///< Exponential ones of rate 1, by the index of a point.
+  std::vector<float> keys_;
   std::optional<std::int64_t> origin_ns_;
   std::int64_t stride_ = 1;  ///< Moments from one that is kept to the next.
   std::map<std::int64_t, Moment> moments_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/sensing/voxel_filter.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace trajlo {
@@ -17,35 +16,29 @@ std::uint64_t CellKey(const Eigen::Vector3f& p, float inverse_size) {
   return key;
 }
 
-/// The finaliser of SplitMix64.
-std::uint64_t Mix(std::uint64_t x) {
-  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31);
-}
+/// No cell has it: 63 bits are used.
+constexpr std::uint64_t kFree = ~std::uint64_t{0};
 
 }  // namespace
 
 void VoxelFilter::Filter(const std::vector<SegmentPoint>& input,
                          std::vector<SegmentPoint>* output) {
   output->clear();
-  std::size_t size = std::max<std::size_t>(table_.size(), 1024);
-  while (size < 2 * input.size()) size *= 2;
-  if (size != table_.size()) {
-    table_.assign(size, Cell{});
-    round_ = 0;
-  }
-  if (++round_ == 0) {  // The counter wrapped around: every mark is stale.
-    std::fill(table_.begin(), table_.end(), Cell{});
-    round_ = 1;
-  }
+  output->reserve(input.size());
+  int bits = 10;
+  while ((std::size_t{1} << bits) < 2 * input.size()) ++bits;
+  table_.assign(std::size_t{1} << bits, kFree);
   const std::size_t mask = table_.size() - 1;
+  std::uint64_t last = kFree;
   for (const SegmentPoint& point : input) {
     const std::uint64_t key = CellKey(point.p_body_m, inverse_size_);
-    std::size_t slot = Mix(key) & mask;
-    while (table_[slot].round == round_ && table_[slot].key != key) slot = (slot + 1) & mask;
-    if (table_[slot].round == round_) continue;
-    table_[slot] = {key, round_};
+    if (key == last) continue;
+    last = key;
+    // Fibonacci hashing: the upper bits of a product with 2^64 over the golden ratio.
+    std::size_t slot = (key * 0x9E3779B97F4A7C15ULL) >> (64 - bits);
+    while (table_[slot] != kFree && table_[slot] != key) slot = (slot + 1) & mask;
+    if (table_[slot] == key) continue;
+    table_[slot] = key;
     output->push_back(point);
   }
 }

@@ -19,13 +19,8 @@ class VoxelFilter {
   void Filter(const std::vector<SegmentPoint>& input, std::vector<SegmentPoint>* output);
 
  private:
-  struct Cell {
-    std::uint64_t key = 0;
-    std::uint32_t round = 0;  ///< The call that filled it; older ones count as empty.
-  };
   float inverse_size_;
-  std::uint32_t round_ = 0;
-  std::vector<Cell> table_;
+  std::vector<std::uint64_t> table_;  ///< The keys of the cells that are taken.
 };
 
 }  // namespace trajlo
