@@ -41,14 +41,14 @@ void FitNormal(const Neighbors& near, double reach_m, const Eigen::Vector3f& to_
 void SurfaceMap::Add(const PlacedScan& scan) {
   for (std::size_t i = 0; i < scan.points_world_m.size(); ++i) {
     const Eigen::Vector3d& p = scan.points_world_m[i];
-    VoxelIndex::Entry* entry = index_.FindOrAdd(VoxelAt(p, 1.0 / voxel_m_));
-    if (entry->block == VoxelIndex::kNoBlock) {
-      entry->block = static_cast<std::uint32_t>(cells_.size());
+    VoxelIndex::Entry& entry = index_[index_.FindOrAdd(VoxelAt(p, 1.0 / voxel_m_))];
+    if (entry.block == VoxelIndex::kNoBlock) {
+      entry.block = static_cast<std::uint32_t>(cells_.size());
       cells_.emplace_back();
       cells_.back().seen_ns = scan.t_ns;
       cells_.back().seen_from_m = scan.T_world_body.t.cast<float>();
     }
-    Cell& cell = cells_[entry->block];
+    Cell& cell = cells_[entry.block];
     cell.sum_m += p;
     cell.sum_intensity += scan.intensities[i];
     ++cell.points;

@@ -67,13 +67,18 @@ class MapLevel {
 
   /// Asking for a plane takes three steps. Those of many queries go side by side, each step
   /// fetching ahead what the next one reads.
-  void Prefetch(const VoxelKey& cell) const { points_.index().Prefetch(VoxelOf(cell)); }
+  VoxelIndex::Slot Locate(const VoxelKey& cell) const {
+    const VoxelIndex::Slot slot = points_.index().Find(VoxelOf(cell));
+    if (slot != VoxelIndex::kNoSlot) points_.index().Prefetch(slot);
+    return slot;
+  }
   /// What the index has there; null where no plane can be.
-  const VoxelIndex::Entry* FindSite(const VoxelKey& cell) const {
-    const VoxelIndex::Entry* entry = points_.index().Find(VoxelOf(cell));
-    if (entry == nullptr || entry->site == VoxelIndex::kNoSite) return nullptr;
-    if (cells_) cells_->Prefetch(entry->site, CellInVoxel(cell));
-    return entry;
+  const VoxelIndex::Entry* FindSite(VoxelIndex::Slot slot, const VoxelKey& cell) const {
+    if (slot == VoxelIndex::kNoSlot) return nullptr;
+    const VoxelIndex::Entry& entry = points_.index()[slot];
+    if (entry.site == VoxelIndex::kNoSite) return nullptr;
+    if (cells_) cells_->Prefetch(entry.site, CellInVoxel(cell));
+    return &entry;
   }
   /// The plane of a cell, about `center_world`: CenterOf(cell), or any place if planes are not
   /// shared.

@@ -58,13 +58,14 @@ void MapPyramid::AskLevel(int i, Batch* batch) const {
   const MapLevel& level = levels_[static_cast<std::size_t>(i)];
   const std::size_t count = batch->open_count;
   std::array<VoxelKey, kMaxBatch> cells;
+  std::array<VoxelIndex::Slot, kMaxBatch> slots;
   std::array<const VoxelIndex::Entry*, kMaxBatch> sites;
   for (std::size_t j = 0; j < count; ++j) {
     const VoxelKey& finest = batch->queries[batch->open[j]].finest_cell;
     cells[j] = {finest.x() >> i, finest.y() >> i, finest.z() >> i};
-    level.Prefetch(cells[j]);
+    slots[j] = level.Locate(cells[j]);
   }
-  for (std::size_t j = 0; j < count; ++j) sites[j] = level.FindSite(cells[j]);
+  for (std::size_t j = 0; j < count; ++j) sites[j] = level.FindSite(slots[j], cells[j]);
 
   std::size_t still_open = 0;
   for (std::size_t j = 0; j < count; ++j) {

@@ -60,10 +60,10 @@ bool VoxelHashMap::HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) con
   return count < kMaxPointsPerVoxel;
 }
 
-void VoxelHashMap::Append(const VoxelKey& key, const Eigen::Vector3f& p) {
-  VoxelIndex::Entry* entry = index_.FindOrAdd(key);
-  if (entry->block == VoxelIndex::kNoBlock) entry->block = NewBlock(key);
-  std::uint32_t last = entry->block;
+void VoxelHashMap::Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p) {
+  VoxelIndex::Entry& entry = index_[slot];
+  if (entry.block == VoxelIndex::kNoBlock) entry.block = NewBlock(key);
+  std::uint32_t last = entry.block;
   while (blocks_[last].next != kNoNext) last = blocks_[last].next;
   if (blocks_[last].count == Block::kCapacity) {
     const std::uint32_t next = NewBlock(key);
@@ -78,8 +78,7 @@ void VoxelHashMap::Append(const VoxelKey& key, const Eigen::Vector3f& p) {
   ++point_count_;
 }
 
-void VoxelHashMap::AddAround(const VoxelKey& key) {
-  VoxelIndex::Entry* entry = index_.FindOrAdd(key);
+void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
   ++entry->points_around;
   if (entry->points_around != points_of_site_) return;
   if (free_sites_.empty()) {
@@ -98,57 +97,60 @@ void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
   // In steps, each of which fetches ahead what the next one reads.
   constexpr std::size_t kBatch = 32;
   std::array<VoxelKey, kBatch> keys;
-  std::array<std::uint32_t, kBatch> blocks;
+  std::array<std::array<VoxelIndex::Slot, 7>, kBatch> around;
   for (std::size_t first = 0; first < points_world.size(); first += kBatch) {
     const std::size_t count = std::min(kBatch, points_world.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
       keys[i] = KeyOf(points_world[first + i]);
-      index_.Prefetch(keys[i]);
+      around[i][0] = index_.FindOrAdd(keys[i]);
+      index_.Prefetch(around[i][0]);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      blocks[i] = BlockOf(keys[i]);
-      if (blocks[i] != VoxelIndex::kNoBlock) __builtin_prefetch(&blocks_[blocks[i]]);
+      const std::uint32_t block = index_[around[i][0]].block;
+      if (block != VoxelIndex::kNoBlock) __builtin_prefetch(&blocks_[block]);
     }
     std::size_t placed = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d& point = points_world[first + i];
       const Eigen::Vector3f p = (point - CornerOf(keys[i])).cast<float>();
-      // A point before it may have been the first of its voxel.
-      if (blocks[i] == VoxelIndex::kNoBlock) blocks[i] = BlockOf(keys[i]);
-      if (!HasRoomFor(blocks[i], p)) continue;
-      Append(keys[i], p);
+      const VoxelIndex::Slot slot = around[i][0];
+      if (!HasRoomFor(index_[slot].block, p)) continue;
+      Append(slot, keys[i], p);
       if (accepted != nullptr) accepted->push_back(point);
-      for (const VoxelKey& face : kFaces) index_.Prefetch(keys[i] + face);
-      keys[placed++] = keys[i];
+      around[placed][0] = slot;
+      for (std::size_t f = 0; f < 6; ++f) {
+        around[placed][1 + f] = index_.FindOrAdd(keys[i] + kFaces[f]);
+        index_.Prefetch(around[placed][1 + f]);
+      }
+      ++placed;
     }
     for (std::size_t i = 0; i < placed; ++i) {
-      AddAround(keys[i]);
-      for (const VoxelKey& face : kFaces) AddAround(keys[i] + face);
+      for (const VoxelIndex::Slot slot : around[i]) AddAround(&index_[slot]);
     }
   }
 }
 
 void VoxelHashMap::DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed) {
   std::uint32_t points = 0;
-  VoxelIndex::Entry* dropped = index_.FindOrAdd(key);
-  for (std::uint32_t b = dropped->block; b < kNoNext; b = blocks_[b].next) {
+  VoxelIndex::Entry& dropped = index_[index_.FindOrAdd(key)];
+  for (std::uint32_t b = dropped.block; b < kNoNext; b = blocks_[b].next) {
     points += blocks_[b].count;
     blocks_[b].count = 0;
     free_blocks_.push_back(b);
   }
-  dropped->block = VoxelIndex::kNoBlock;
+  dropped.block = VoxelIndex::kNoBlock;
   point_count_ -= points;
   const auto release = [&](const VoxelKey& near) {
-    VoxelIndex::Entry* entry = index_.FindOrAdd(near);
-    entry->points_around -= points;
-    if (entry->site != VoxelIndex::kNoSite) {
-      changed->push_back(entry->site);
-      if (entry->points_around < points_of_site_) {
-        free_sites_.push_back(entry->site);
-        entry->site = VoxelIndex::kNoSite;
+    VoxelIndex::Entry& entry = index_[index_.FindOrAdd(near)];
+    entry.points_around -= points;
+    if (entry.site != VoxelIndex::kNoSite) {
+      changed->push_back(entry.site);
+      if (entry.points_around < points_of_site_) {
+        free_sites_.push_back(entry.site);
+        entry.site = VoxelIndex::kNoSite;
       }
     }
-    if (entry->points_around == 0) index_.Erase(near);
+    if (entry.points_around == 0) index_.Erase(near);
   };
   release(key);
   for (const VoxelKey& face : kFaces) release(key + face);
@@ -167,11 +169,6 @@ void VoxelHashMap::RemoveFar(const Eigen::Vector3d& center_world,
         CornerOf(block.key) + Eigen::Vector3d::Constant(0.5 * voxel_size_);
     if ((center - center_world).norm() > radius_) DropVoxel(block.key, changed);
   }
-}
-
-std::uint32_t VoxelHashMap::BlockOf(const VoxelKey& key) const {
-  const VoxelIndex::Entry* entry = index_.Find(key);
-  return entry != nullptr ? entry->block : VoxelIndex::kNoBlock;
 }
 
 void VoxelHashMap::Gather(std::uint32_t block, const Eigen::Vector3f& shift,
@@ -197,11 +194,12 @@ void VoxelHashMap::Gather(std::uint32_t block, const Eigen::Vector3f& shift,
 void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const {
   neighbors->count = 0;
   const VoxelKey key = KeyOf(query_world);
-  for (const VoxelKey& face : kFaces) index_.Prefetch(key + face);
-  std::uint32_t blocks[7] = {BlockOf(key)};
-  for (int i = 0; i < 6; ++i) blocks[1 + i] = BlockOf(key + kFaces[i]);
-  for (const std::uint32_t block : blocks) {
-    if (block != VoxelIndex::kNoBlock) __builtin_prefetch(&blocks_[block]);
+  VoxelIndex::Slot around[7] = {index_.Find(key)};
+  for (int i = 0; i < 6; ++i) around[1 + i] = index_.Find(key + kFaces[i]);
+  std::uint32_t blocks[7];
+  for (int i = 0; i < 7; ++i) {
+    blocks[i] = around[i] == VoxelIndex::kNoSlot ? VoxelIndex::kNoBlock : index_[around[i]].block;
+    if (blocks[i] != VoxelIndex::kNoBlock) __builtin_prefetch(&blocks_[blocks[i]]);
   }
 
   const Eigen::Vector3d corner = CornerOf(key);

@@ -66,14 +66,12 @@ class VoxelHashMap {
   static_assert(sizeof(Block) == 64);
   struct Candidates;
 
-  /// The first block of a voxel.
-  std::uint32_t BlockOf(const VoxelKey& key) const;
   /// Whether a voxel, given by its first block, is not full and has no point that is too near.
   bool HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) const;
-  void Append(const VoxelKey& key, const Eigen::Vector3f& p);
+  void Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p);
   std::uint32_t NewBlock(const VoxelKey& key);
   /// Counts one more point around a voxel.
-  void AddAround(const VoxelKey& key);
+  void AddAround(VoxelIndex::Entry* entry);
   void DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed);
   void Gather(std::uint32_t block, const Eigen::Vector3f& shift, const Eigen::Vector3f& query,
               Candidates* candidates) const;

@@ -31,7 +31,7 @@ MapOptions Options(MapKind kind, bool shared_planes) {
 FittedPlane Ask(const MapLevel& level, const Eigen::Vector3d& p, Eigen::Vector3d* center) {
   const VoxelKey cell = level.CellOf(p);
   *center = level.shares_planes() ? level.CenterOf(cell) : p;
-  const VoxelIndex::Entry* site = level.FindSite(cell);
+  const VoxelIndex::Entry* site = level.FindSite(level.Locate(cell), cell);
   return site == nullptr ? FittedPlane() : level.PlaneAt(*site, cell, *center);
 }
 
@@ -78,7 +78,8 @@ TEST(MapLevel, APlaneFollowsTheMapWhenItHasGrownByMoreThanAnEighth) {
   int changes = 0;
   for (const Eigen::Vector3d& p : Floor(60000, 4.0, 0.01, 3)) {
     level.Insert({p}, &accepted);
-    const VoxelIndex::Entry* site = level.FindSite(level.CellOf(asked));
+    const VoxelKey cell = level.CellOf(asked);
+    const VoxelIndex::Entry* site = level.FindSite(level.Locate(cell), cell);
     if (site == nullptr) continue;
     const FittedPlane plane = Ask(level, asked, &center);
     if (fitted_at == 0 || site->points_around > fitted_at + fitted_at / 8 + 1) {

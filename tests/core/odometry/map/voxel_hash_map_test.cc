@@ -94,16 +94,19 @@ TEST(VoxelHashMap, KnowsHowManyPointsThereAreAroundEveryVoxel) {
     }
     ++around[{key.x(), key.y(), key.z()}];
   }
-  EXPECT_EQ(map.index().size(), around.size());
+  std::set<std::array<int, 3>> bricks;
+  for (const auto& [key, points] : around) bricks.insert({key[0] >> 2, key[1] >> 2, key[2] >> 2});
+  EXPECT_EQ(map.index().bricks(), bricks.size());
   std::set<std::uint32_t> sites;
   for (const auto& [key, points] : around) {
-    const VoxelIndex::Entry* entry = map.index().Find({key[0], key[1], key[2]});
-    ASSERT_NE(entry, nullptr);
-    EXPECT_EQ(entry->points_around, points);
-    EXPECT_EQ(entry->site != VoxelIndex::kNoSite, points >= 5);
+    const VoxelIndex::Slot slot = map.index().Find({key[0], key[1], key[2]});
+    ASSERT_NE(slot, VoxelIndex::kNoSlot);
+    const VoxelIndex::Entry& entry = map.index()[slot];
+    EXPECT_EQ(entry.points_around, points);
+    EXPECT_EQ(entry.site != VoxelIndex::kNoSite, points >= 5);
     if (points < 5) continue;
-    EXPECT_LT(entry->site, map.site_capacity());
-    EXPECT_TRUE(sites.insert(entry->site).second);
+    EXPECT_LT(entry.site, map.site_capacity());
+    EXPECT_TRUE(sites.insert(entry.site).second);
   }
   EXPECT_GT(sites.size(), 1000u);
 }
@@ -128,7 +131,7 @@ TEST(VoxelHashMap, DropsWhatIsFarAndKeepsWhatIsNear) {
   EXPECT_EQ(Stored(map), near);
   map.RemoveFar({30, 0, 0}, &changed);
   EXPECT_EQ(map.size(), 0u);
-  EXPECT_EQ(map.index().size(), 0u);
+  EXPECT_EQ(map.index().bricks(), 0u);
   map.Insert(RandomPoints(2000, 2.0, {30, 0, 0}, 9));
   Neighbors found;
   map.Nearest({30, 0, 0}, 5, &found);
@@ -138,19 +141,19 @@ TEST(VoxelHashMap, DropsWhatIsFarAndKeepsWhatIsNear) {
 TEST(VoxelHashMap, StaysAsSmallAsItsSurroundingsOnALongWay) {
   VoxelHashMap map = MakeMap(0.5, 0.1, 10.0);
   std::vector<std::uint32_t> changed;
-  std::size_t sites = 0, entries = 0;
+  std::size_t sites = 0, bricks = 0;
   for (int i = 0; i < 60; ++i) {
     const Eigen::Vector3d center(2.0 * i, 0, 0);
     map.Insert(RandomPoints(4000, 5.0, center, static_cast<unsigned>(i)));
     map.RemoveFar(center, &changed);
     if (i == 15) {
       sites = map.site_capacity();
-      entries = map.index().size();
+      bricks = map.index().bricks();
     }
   }
   EXPECT_GT(sites, 1000u);
   EXPECT_LT(static_cast<double>(map.site_capacity()), 1.1 * static_cast<double>(sites));
-  EXPECT_LT(static_cast<double>(map.index().size()), 1.1 * static_cast<double>(entries));
+  EXPECT_LT(static_cast<double>(map.index().bricks()), 1.1 * static_cast<double>(bricks));
 }
 
 TEST(VoxelHashMap, IsPreciseAMillionMetresFromTheOrigin) {

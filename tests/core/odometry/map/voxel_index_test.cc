@@ -20,38 +20,39 @@ TEST(VoxelIndex, IsAMapFromVoxelsThroughAdditionsAndErasures) {
   for (std::uint32_t i = 0; i < 200000; ++i) {
     const VoxelKey key(draw(), draw(), draw());
     const std::array<int, 3> k = {key.x(), key.y(), key.z()};
-    const VoxelIndex::Entry* found = index.Find(key);
-    ASSERT_EQ(found != nullptr, reference.count(k) == 1);
-    if (found != nullptr) {
-      ASSERT_EQ(found->block, reference.at(k));
+    const VoxelIndex::Slot found = index.Find(key);
+    const bool is_there = found != VoxelIndex::kNoSlot && !index[found].IsEmpty();
+    ASSERT_EQ(is_there, reference.count(k) == 1);
+    if (is_there) {
+      ASSERT_EQ(index[found].block, reference.at(k));
     }
     if (random.Uniform(0, 1) < 0.55) {
-      index.FindOrAdd(key)->block = i;
+      index[index.FindOrAdd(key)].block = i;
       reference[k] = i;
     } else {
       index.Erase(key);
       reference.erase(k);
     }
-    ASSERT_EQ(index.size(), reference.size());
   }
   EXPECT_GT(reference.size(), 2000u);
+  for (const auto& [k, block] : reference) index.Erase({k[0], k[1], k[2]});
+  EXPECT_EQ(index.bricks(), 0u);
 }
 
-TEST(VoxelIndex, AnEntryBeginsEmptyAndKeepsWhatItHoldsWhenTheTableGrows) {
+TEST(VoxelIndex, AnEntryBeginsEmptyAndStaysWhereItIsWhenTheTableGrows) {
   VoxelIndex index;
-  VoxelIndex::Entry* entry = index.FindOrAdd({1, 2, 3});
-  EXPECT_EQ(entry->block, VoxelIndex::kNoBlock);
-  EXPECT_EQ(entry->site, VoxelIndex::kNoSite);
-  EXPECT_EQ(entry->points_around, 0u);
-  entry->block = 5;
-  entry->site = VoxelIndex::kNoSite - 1;
-  entry->points_around = 140;
-  for (int i = 0; i < 5000; ++i) index.FindOrAdd({i, -i, 7});
-  const VoxelIndex::Entry* same = index.Find({1, 2, 3});
-  ASSERT_NE(same, nullptr);
-  EXPECT_EQ(same->block, 5u);
-  EXPECT_EQ(same->site, VoxelIndex::kNoSite - 1);
-  EXPECT_EQ(same->points_around, 140u);
+  const VoxelIndex::Slot slot = index.FindOrAdd({1, 2, 3});
+  EXPECT_TRUE(index[slot].IsEmpty());
+  EXPECT_EQ(index[slot].site, VoxelIndex::kNoSite);
+  index[slot].block = 5;
+  index[slot].site = VoxelIndex::kNoSite - 1;
+  index[slot].points_around = 140;
+  for (int i = 0; i < 5000; ++i) index.FindOrAdd({4 * i, -i, 7});
+  EXPECT_GT(index.bricks(), 5000u);
+  EXPECT_EQ(index.Find({1, 2, 3}), slot);
+  EXPECT_EQ(index[slot].block, 5u);
+  EXPECT_EQ(index[slot].site, VoxelIndex::kNoSite - 1);
+  EXPECT_EQ(index[slot].points_around, 140u);
 }
 
 TEST(VoxelIndex, TakesAVoxelOfTheCoarserGridForEightOfTheFiner) {
