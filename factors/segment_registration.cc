@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "factors/square_root.h"
 #include "manifolds/lanes.h"
@@ -22,57 +23,88 @@ using lanes::Vector3;
 
 namespace {
 
-/// Gathers one member of up to four points.
+/// So many groups of points, each as wide as the lanes, are added to H at a time.
+constexpr int kGroups = 8;
+
+/// Some points, with one lane for each.
 template <typename T>
 struct GatheredPoints {
   Vector3<T> p, n;
   T alpha, offset, weight;
 
-  explicit GatheredPoints(const RegistrationPoint* const* points) {
-    for (int i = 0; i < kLanes<T>; ++i) {
-      const RegistrationPoint& point = *points[i];
-      At(p.x, i) = point.p_body_m.x();
-      At(p.y, i) = point.p_body_m.y();
-      At(p.z, i) = point.p_body_m.z();
-      At(n.x, i) = point.normal_world.x();
-      At(n.y, i) = point.normal_world.y();
-      At(n.z, i) = point.normal_world.z();
-      At(alpha, i) = point.alpha;
-      At(offset, i) = point.offset_m;
-      At(weight, i) = point.weight;
-    }
-  }
+  explicit GatheredPoints(const RegistrationPoint* points);
 };
 
-/// The sum of ½ rho(s_i). For Cauchy, a/2 log prod (1 + s_i/a): one logarithm for many points.
-class KernelCost {
- public:
-  explicit KernelCost(const RobustKernel& kernel)
-      : kernel_(kernel), inverse_a_(1.0 / (kernel.width * kernel.width)) {}
+template <>
+GatheredPoints<double>::GatheredPoints(const RegistrationPoint* points)
+    : p{points->p_body_m.x(), points->p_body_m.y(), points->p_body_m.z()},
+      n{points->normal_world.x(), points->normal_world.y(), points->normal_world.z()},
+      alpha(points->alpha),
+      offset(points->offset_m),
+      weight(points->weight) {}
 
-  void Add(double s) {
-    if (kernel_.kind != KernelKind::kCauchy) {
-      sum_ += kernel_.Rho(s);
+/// A point begins with p and alpha, four numbers; n and the offset follow.
+static_assert(sizeof(RegistrationPoint) == 10 * sizeof(double));
+Lane4 LoadFour(const RegistrationPoint& point, int first) {
+  Lane4 four;
+  std::memcpy(&four, reinterpret_cast<const char*>(&point) + first * sizeof(double), sizeof(four));
+  return four;
+}
+
+template <>
+GatheredPoints<Lane4>::GatheredPoints(const RegistrationPoint* points)
+    : p{LoadFour(points[0], 0), LoadFour(points[1], 0), LoadFour(points[2], 0)},
+      n{LoadFour(points[0], 4), LoadFour(points[1], 4), LoadFour(points[2], 4)},
+      alpha(LoadFour(points[3], 0)),
+      offset(LoadFour(points[3], 4)),
+      weight{points[0].weight, points[1].weight, points[2].weight, points[3].weight} {
+  lanes::Transpose(&p.x, &p.y, &p.z, &alpha);
+  lanes::Transpose(&n.x, &n.y, &n.z, &offset);
+}
+
+/// The weights rho'(s), and the sum of ½ rho(s_i).
+///
+/// For Cauchy, that is a/2 log prod (1 + s_i/a): one logarithm for many points. A product of
+/// kGroups factors is far from the largest number.
+template <typename T>
+class KernelSum {
+ public:
+  explicit KernelSum(const RobustKernel& kernel)
+      : kernel_(kernel), a_(kernel.width * kernel.width), inverse_a_(1.0 / a_) {}
+
+  T AddAndWeigh(const T& s) {
+    Add(s);
+    if (kernel_.kind == KernelKind::kCauchy) return a_ / (a_ + s);
+    T weight;
+    for (int i = 0; i < kLanes<T>; ++i) At(weight, i) = kernel_.Weight(At(s, i));
+    return weight;
+  }
+  void Add(const T& s) {
+    if (kernel_.kind == KernelKind::kCauchy) {
+      product_ *= 1.0 + s * inverse_a_;
       return;
     }
-    product_ *= 1.0 + s * inverse_a_;
-    if (product_ > 1e100) Flush();
+    for (int i = 0; i < kLanes<T>; ++i) sum_ += kernel_.Rho(At(s, i));
   }
-
+  /// To be called after at most kGroups additions.
+  void EndBlock() {
+    for (int i = 0; i < kLanes<T>; ++i) {
+      if (!(At(product_, i) < 1e100)) {
+        sum_ += std::log(At(product_, i)) * a_;
+        At(product_, i) = 1.0;
+      }
+    }
+  }
   double Total() {
-    if (kernel_.kind == KernelKind::kCauchy) Flush();
+    for (int i = 0; i < kLanes<T>; ++i) sum_ += std::log(At(product_, i)) * a_;
+    product_ = Broadcast<T>(1.0);
     return 0.5 * sum_;
   }
 
  private:
-  void Flush() {
-    sum_ += std::log(product_) / inverse_a_;
-    product_ = 1.0;
-  }
-
   RobustKernel kernel_;
-  double inverse_a_;
-  double product_ = 1.0;
+  double a_, inverse_a_;
+  T product_ = Broadcast<T>(1.0);
   double sum_ = 0.0;
 };
 
@@ -88,56 +120,103 @@ void SegmentLinearizer::Sum::Add(const Sum& other) {
   cost += other.cost;
 }
 
-/// Per lane: the upper triangle of H by rows, and g.
-template <typename T>
-struct SegmentLinearizer::Lanes {
-  T H[78] = {};
-  T g[12] = {};
-  KernelCost cost;
-};
-
 namespace {
 
+/// At s = alpha² `angle_squared`.
 template <typename T>
-StumpffSeries<T> StumpffOf(const T& s) {
-  return StumpffSeries<T>(s);
+StumpffSeries<T> StumpffOf(const T& s, double angle_squared) {
+  return StumpffSeries<T>(s, angle_squared);
 }
 template <>
-StumpffSeries<double> StumpffOf<double>(const double& s) {
+StumpffSeries<double> StumpffOf<double>(const double& s, double) {
   return Stumpff(s);
 }
+
+/// Sums over [j; v] by blocks of 3 x 3, which the registers hold while a block of points is added.
+template <typename T>
+class BlockSum {
+ public:
+  /// Row `row` of group `group`: u, and what it is to be multiplied with.
+  void Set(int group, int row, const T& u, const T& wu) {
+    u_[row][group] = u;
+    wu_[row][group] = wu;
+  }
+  void AddGroups(int groups) {
+    for (int row = 0, block = 0; row < 12; row += 3) {
+      for (int column = row; column < 12; column += 3, ++block) AddTo(block, row, column, groups);
+    }
+  }
+  /// The upper triangle.
+  void AddTo(Matrix12d* H) const {
+    for (int row = 0, block = 0; row < 12; row += 3) {
+      for (int column = row; column < 12; column += 3, ++block) {
+        for (int i = 0; i < 9; ++i) {
+          if (column + i % 3 < row + i / 3) continue;
+          for (int lane = 0; lane < kLanes<T>; ++lane) {
+            (*H)(row + i / 3, column + i % 3) += At(H_[block][i], lane);
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  void AddTo(int block, int row, int column, int groups) {
+    T sum[9];
+    std::copy_n(H_[block], 9, sum);
+    for (int g = 0; g < groups; ++g) {
+      const T a0 = wu_[row][g], a1 = wu_[row + 1][g], a2 = wu_[row + 2][g];
+      const T b0 = u_[column][g], b1 = u_[column + 1][g], b2 = u_[column + 2][g];
+      sum[0] += a0 * b0;
+      sum[1] += a0 * b1;
+      sum[2] += a0 * b2;
+      sum[3] += a1 * b0;
+      sum[4] += a1 * b1;
+      sum[5] += a1 * b2;
+      sum[6] += a2 * b0;
+      sum[7] += a2 * b1;
+      sum[8] += a2 * b2;
+    }
+    std::copy_n(sum, 9, H_[block]);
+  }
+
+  T u_[12][kGroups], wu_[12][kGroups];
+  T H_[10][9] = {};
+};
 
 }  // namespace
 
 template <typename T>
-T SegmentLinearizer::Residual(const RegistrationPoint* const* points) const {
+struct SegmentLinearizer::Lanes {
+  explicit Lanes(const RobustKernel& kernel) : cost(kernel) {}
+  BlockSum<T> H;
+  T g[12] = {};
+  KernelSum<T> cost;
+};
+
+template <typename T>
+T SegmentLinearizer::Residual(const RegistrationPoint* points, T* weight) const {
   const GatheredPoints<T> in(points);
   const SegmentMotion& m = motion_;
-  const StumpffSeries<T> c = StumpffOf<T>(in.alpha * in.alpha * m.angle_squared);
+  const StumpffSeries<T> c = StumpffOf<T>(in.alpha * in.alpha * m.angle_squared, m.angle_squared);
   const Vector3<T> p0 = m.MoveToBegin<T>(in.alpha, c, in.p);
   const Vector3<T> n0 = RotateInverse(m.R_begin, in.n);
+  *weight = in.weight;
   return Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(m.t_begin)) - in.offset);
 }
 
 template <typename T>
-void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* const* points,
+void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* points, int group,
                                        Lanes<T>* sums) const {
   const GatheredPoints<T> in(points);
   const T alpha = in.alpha;
   const SegmentMotion& m = motion_;
-  const StumpffSeries<T> c = StumpffOf<T>(alpha * alpha * m.angle_squared);
+  const StumpffSeries<T> c = StumpffOf<T>(alpha * alpha * m.angle_squared, m.angle_squared);
   const Vector3<T> p0 = m.MoveToBegin<T>(alpha, c, in.p);
   const Vector3<T> n0 = RotateInverse(m.R_begin, in.n);
   const T r = Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(m.t_begin)) - in.offset);
-
-  const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
-  T s = in.weight * information * r * r;
-  T w;
-  for (int i = 0; i < kLanes<T>; ++i) {
-    sums->cost.Add(At(s, i));
-    At(w, i) = noise_.kernel.Weight(At(s, i));
-  }
-  w = w * in.weight * information;
+  const T information = in.weight / (noise_.sigma_m * noise_.sigma_m);
+  const T w = information * sums->cost.AddAndWeigh(information * r * r);
 
   // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x
   // theta].
@@ -161,61 +240,64 @@ void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* const* points,
   v2 = alpha * v2;
 
   const T u[12] = {j1.x, j1.y, j1.z, j2.x, j2.y, j2.z, v1.x, v1.y, v1.z, v2.x, v2.y, v2.z};
-  int index = 0;
   for (int row = 0; row < 12; ++row) {
     const T wu = w * u[row];
     sums->g[row] += wu * r;
-    for (int column = row; column < 12; ++column) sums->H[index++] += wu * u[column];
+    sums->H.Set(group, row, u[row], wu);
   }
 }
 
 template <typename T>
 void SegmentLinearizer::RunLinearize(const RegistrationPoint* points, size_t count,
                                      Sum* sum) const {
-  Lanes<T> lanes{{}, {}, KernelCost(noise_.kernel)};
-  const RegistrationPoint* gathered[4];
-  for (size_t i = 0; i + kLanes<T> <= count; i += kLanes<T>) {
-    for (int lane = 0; lane < kLanes<T>; ++lane) gathered[lane] = points + i + lane;
-    LinearizeLanes<T>(gathered, &lanes);
+  Lanes<T> lanes(noise_.kernel);
+  for (size_t first = 0; first < count; first += kGroups * kLanes<T>) {
+    const auto groups = static_cast<int>(std::min<size_t>(kGroups, (count - first) / kLanes<T>));
+    for (int g = 0; g < groups; ++g) {
+      LinearizeLanes<T>(points + first + g * kLanes<T>, g, &lanes);
+    }
+    lanes.H.AddGroups(groups);
+    lanes.cost.EndBlock();
   }
-  int index = 0;
+  lanes.H.AddTo(&sum->H);
   for (int row = 0; row < 12; ++row) {
     for (int lane = 0; lane < kLanes<T>; ++lane) sum->g[row] += At(lanes.g[row], lane);
-    for (int column = row; column < 12; ++column, ++index) {
-      for (int lane = 0; lane < kLanes<T>; ++lane) sum->H(row, column) += At(lanes.H[index], lane);
-    }
   }
   sum->cost += lanes.cost.Total();
+}
+
+template <typename T>
+double SegmentLinearizer::RunCost(const RegistrationPoint* points, size_t count) const {
+  KernelSum<T> cost(noise_.kernel);
+  const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
+  for (size_t i = 0; i < count; i += kLanes<T>) {
+    T weight;
+    const T r = Residual<T>(points + i, &weight);
+    cost.Add(weight * information * r * r);
+    cost.EndBlock();
+  }
+  return cost.Total();
+}
+
+/// How many of the points go side by side: the series of the Stumpff functions, which the lanes
+/// use, hold for rotations below 1 rad.
+size_t SegmentLinearizer::Vectorised(size_t count) const {
+  return motion_.angle_squared < 1.0 ? count / 4 * 4 : 0;
 }
 
 SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* points,
                                                     size_t count) const {
   Sum sum;
-  // The series of the Stumpff functions, which the lanes use, hold for rotations below 1 rad.
-  const size_t vectorised = motion_.angle_squared < 1.0 ? count / 4 * 4 : 0;
+  const size_t vectorised = Vectorised(count);
   RunLinearize<Lane4>(points, vectorised, &sum);
   RunLinearize<double>(points + vectorised, count - vectorised, &sum);
   return sum;
 }
 
 double SegmentLinearizer::Cost(const RegistrationPoint* points, size_t count) const {
-  KernelCost cost(noise_.kernel);
-  const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
-  const size_t vectorised = motion_.angle_squared < 1.0 ? count / 4 * 4 : 0;
-  const RegistrationPoint* gathered[4];
-  for (size_t i = 0; i < vectorised; i += 4) {
-    for (int lane = 0; lane < 4; ++lane) gathered[lane] = points + i + lane;
-    Lane4 r = Residual<Lane4>(gathered);
-    for (int lane = 0; lane < 4; ++lane) {
-      cost.Add(points[i + lane].weight * information * At(r, lane) * At(r, lane));
-    }
-  }
-  for (size_t i = vectorised; i < count; ++i) {
-    gathered[0] = points + i;
-    const double r = Residual<double>(gathered);
-    cost.Add(points[i].weight * information * r * r);
-  }
-  return cost.Total();
+  const size_t vectorised = Vectorised(count);
+  return RunCost<Lane4>(points, vectorised) +
+         RunCost<double>(points + vectorised, count - vectorised);
 }
 
 RegistrationNormalEquations SegmentLinearizer::Finish(const Sum& sum) const {

@@ -64,11 +64,14 @@ class SegmentLinearizer {
   template <typename T>
   struct Lanes;
   template <typename T>
-  void LinearizeLanes(const RegistrationPoint* const* points, Lanes<T>* sums) const;
+  void LinearizeLanes(const RegistrationPoint* points, int group, Lanes<T>* sums) const;
   template <typename T>
-  T Residual(const RegistrationPoint* const* points) const;
+  T Residual(const RegistrationPoint* points, T* weight) const;
   template <typename T>
   void RunLinearize(const RegistrationPoint* points, size_t count, Sum* sum) const;
+  template <typename T>
+  double RunCost(const RegistrationPoint* points, size_t count) const;
+  size_t Vectorised(size_t count) const;
 
   SegmentMotion motion_;
   RegistrationNoise noise_;

@@ -20,6 +20,29 @@ inline constexpr int kLanes<Lane4> = 4;
 
 inline double& At(double& value, int) { return value; }
 inline double& At(Lane4& value, int lane) { return reinterpret_cast<double*>(&value)[lane]; }
+inline double At(const double& value, int) { return value; }
+inline double At(const Lane4& value, int lane) { return value[lane]; }
+
+/// Lanes of a and b by number: 0 to 3 are those of a, 4 to 7 those of b.
+template <int i, int j, int k, int l>
+Lane4 Shuffle(const Lane4& a, const Lane4& b) {
+#ifdef __clang__
+  return __builtin_shufflevector(a, b, i, j, k, l);
+#else
+  typedef long long Mask __attribute__((vector_size(32)));  // NOLINT(modernize-use-using)
+  return __builtin_shuffle(a, b, Mask{i, j, k, l});
+#endif
+}
+
+/// Rows become columns.
+inline void Transpose(Lane4* a, Lane4* b, Lane4* c, Lane4* d) {
+  const Lane4 ab_even = Shuffle<0, 4, 2, 6>(*a, *b), ab_odd = Shuffle<1, 5, 3, 7>(*a, *b);
+  const Lane4 cd_even = Shuffle<0, 4, 2, 6>(*c, *d), cd_odd = Shuffle<1, 5, 3, 7>(*c, *d);
+  *a = Shuffle<0, 1, 4, 5>(ab_even, cd_even);
+  *b = Shuffle<0, 1, 4, 5>(ab_odd, cd_odd);
+  *c = Shuffle<2, 3, 6, 7>(ab_even, cd_even);
+  *d = Shuffle<2, 3, 6, 7>(ab_odd, cd_odd);
+}
 
 template <typename T>
 T Broadcast(double value) {

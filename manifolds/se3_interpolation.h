@@ -47,7 +47,7 @@ struct SegmentMotion {
   /// The points in the world, for segments that turn by less than a radian.
   lanes::Vector3<lanes::Lane4> ToWorld(const lanes::Lane4& alpha,
                                        const lanes::Vector3<lanes::Lane4>& p) const {
-    const StumpffSeries<lanes::Lane4> c(alpha * alpha * angle_squared);
+    const StumpffSeries<lanes::Lane4> c(alpha * alpha * angle_squared, angle_squared);
     return lanes::Rotate(R_begin, MoveToBegin(alpha, c, p)) +
            lanes::Broadcast3<lanes::Lane4>(t_begin);
   }

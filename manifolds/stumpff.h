@@ -11,8 +11,9 @@ namespace trajlo {
 ///   c0 = cos x, c1 = sin x / x, c2 = (1 - cos x)/x², c3 = (x - sin x)/x³, and c_n = 1/n! - x²
 ///   c_{n+2}.
 ///
-/// Below x = 1 the series of c4 and c5 are summed (9 terms: the rest is below 1e-17) and the others
-/// follow by the recurrence, without a single trigonometric call; above, it runs the other way.
+/// Below x = 1 the series of c4 and c5 are summed (9 terms, or 5 below 0.1: the rest is below
+/// 1e-17) and the others follow by the recurrence, without a single trigonometric call; above, it
+/// runs the other way.
 ///
 /// Source: K. Stumpff, Himmelsmechanik I, 1959; used here as a common basis for the coefficients of
 /// T. Barfoot, State Estimation for Robotics, 2017, sections 7.1 and 8.1.5.
@@ -20,19 +21,20 @@ template <typename T>
 struct StumpffSeries {
   T c0, c1, c2, c3, c4, c5;
 
-  /// The series branch, for x² < 1; T may be a vector of lanes.
-  explicit StumpffSeries(const T& s) {
+  /// The series branch, for x² <= `largest` <= 1; T may be a vector of lanes. Few terms are enough
+  /// for what turns within a segment.
+  explicit StumpffSeries(const T& s, double largest = 1.0) {
     // Horner form: c_n = 1/n! (1 - s/((n+1)(n+2)) (1 - s/((n+3)(n+4)) (...))).
-    c4 = 1.0 - s * (1.0 / 380);
-    for (const double r :
-         {1.0 / 306, 1.0 / 240, 1.0 / 182, 1.0 / 132, 1.0 / 90, 1.0 / 56, 1.0 / 30}) {
-      c4 = 1.0 - s * r * c4;
+    c4 = 1.0 - s * (1.0 / 132);
+    c5 = 1.0 - s * (1.0 / 156);
+    if (largest > 0.01) {
+      c4 = 1.0 - s * (1.0 / 380);
+      for (const double r : {1.0 / 306, 1.0 / 240, 1.0 / 182, 1.0 / 132}) c4 = 1.0 - s * r * c4;
+      c5 = 1.0 - s * (1.0 / 420);
+      for (const double r : {1.0 / 342, 1.0 / 272, 1.0 / 210, 1.0 / 156}) c5 = 1.0 - s * r * c5;
     }
-    c5 = 1.0 - s * (1.0 / 420);
-    for (const double r :
-         {1.0 / 342, 1.0 / 272, 1.0 / 210, 1.0 / 156, 1.0 / 110, 1.0 / 72, 1.0 / 42}) {
-      c5 = 1.0 - s * r * c5;
-    }
+    for (const double r : {1.0 / 90, 1.0 / 56, 1.0 / 30}) c4 = 1.0 - s * r * c4;
+    for (const double r : {1.0 / 110, 1.0 / 72, 1.0 / 42}) c5 = 1.0 - s * r * c5;
     c4 = c4 * (1.0 / 24);
     c5 = c5 * (1.0 / 120);
     c3 = 1.0 / 6 - s * c5;

@@ -123,8 +123,7 @@ void Odometry::Step(SegmentCloud cloud) {
   WindowStatistics statistics;
   AssociateAndSolve(&statistics);
   statistics.SetCorrection(predicted.back(), window_.segments.back().T_world_end);
-  const bool is_starved =
-      IsStarved(window_, window_.segments.back(), options_.lost.min_inlier_share);
+  const bool is_starved = IsStarved(window_, window_.segments.back());
   if (is_starved && starvation_.IsBlind(window_.EndNs(), motion_prior_.density())) {
     cloud = std::move(window_.segments.back().cloud);
     Revert(predicted, &window_);
@@ -133,9 +132,8 @@ void Odometry::Step(SegmentCloud cloud) {
     Take(std::move(cloud));
     return;
   }
-  if (!is_starved) starvation_.Fed(window_.EndNs());
-  window_.is_believed = IsBelievable(statistics, window_, options_.lost) &&
-                        (!is_starved || window_.segments.back().points.empty());
+  NoteFed();
+  window_.is_believed = IsBelievable(statistics, window_, options_.lost);
   if (window_.is_believed) {
     Learn(predicted.back());
   } else {
@@ -146,6 +144,16 @@ void Odometry::Step(SegmentCloud cloud) {
   Describe(window_, &statistics);
   if (window_.size() >= options_.window.segments) Leave(&statistics);
   Report(&statistics);
+}
+
+/// The newest segment that its points hold. One that sees a new part of the world is held as soon
+/// as the map has grown there.
+void Odometry::NoteFed() {
+  for (std::size_t k = window_.segments.size(); k-- > 0;) {
+    if (IsStarved(window_, window_.segments[k])) continue;
+    starvation_.Fed(window_.segments[k].cloud.end_ns);
+    return;
+  }
 }
 
 /// Until the step is small: which planes the points belong to, and the poses that bring them there.
@@ -177,12 +185,12 @@ void Odometry::Leave(WindowStatistics* statistics) {
   Stopwatch watch;
   SettleFront();
   const SE3 T_begin = window_.T_world_begin;
+  // What no plane agrees with may be a hand before the LiDAR. The first points agree with nothing.
+  const bool is_of_the_world =
+      !starvation_.was_fed() || !IsStarved(window_, window_.segments.front());
   const Segment oldest = Marginalize(options_.marginalization, &window_);
   statistics->milliseconds_marginalize = watch.Milliseconds();
-  // What no plane agrees with may be a hand before the LiDAR. The first points agree with nothing.
-  if ((oldest.flags & kFlagNoPoints) == 0 || !starvation_.was_fed()) {
-    AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
-  }
+  if (is_of_the_world) AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
   map_.RemoveFar(oldest.T_world_end.t);
   statistics->milliseconds_map = watch.Milliseconds();
 }

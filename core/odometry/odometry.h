@@ -72,6 +72,7 @@ class Odometry {
   void Search(bool is_last);
   void Resume(const ReturnSweep& sweep);
   void GetLost(const ReturnSweep& sweep);
+  void NoteFed();
   void AssociateAndSolve(WindowStatistics* statistics);
   void Learn(const SE3& T_world_predicted);
   void Leave(WindowStatistics* statistics);

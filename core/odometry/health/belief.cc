@@ -38,7 +38,7 @@ void Judge(const LostOptions& options, double points_per_error, Window* window,
   } else if (!statistics->has_converged) {
     statistics->flags |= kFlagNotConverged;
   }
-  if (IsStarved(*window, newest, options.min_inlier_share)) statistics->flags |= kFlagNoPoints;
+  if (IsStarved(*window, newest)) statistics->flags |= kFlagNoPoints;
   const WindowCondition condition = ConditionOf(*window, points_per_error);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;

@@ -12,18 +12,21 @@ namespace {
 /// A point within this distance is on its plane: the error of a prediction after a short pause.
 constexpr double kOnPlane_m = 0.2;
 /// Fewer points than this hold no pose.
-constexpr int kHandful = 6;
+constexpr int kHandful = 20;
+/// Of the points that have a plane, this share lies on it, if the pose is right. If it is wrong by
+/// more than a point's distance from its plane may be, a third does.
+constexpr double kAgreeing = 0.5;
 /// What a registration from the prediction bridges, for three standard deviations of it.
 constexpr double kBridged_m = 1.0;
 constexpr double kBridged_rad = 0.45;
 
 }  // namespace
 
-bool IsStarved(const Window& window, const Segment& segment, double min_share) {
+bool IsStarved(const Window& window, const Segment& segment) {
   const auto k = static_cast<int>(&segment - window.segments.data());
   const SegmentMotion motion(window.Pose(k), segment.T_world_end);
-  const double all = static_cast<double>(segment.cloud.registration_points.size());
-  const double needed = std::max<double>(kHandful, min_share * all);
+  const double needed =
+      std::max<double>(kHandful, kAgreeing * static_cast<double>(segment.points.size()));
   int on_plane = 0;
   for (const RegistrationPoint& point : segment.points) {
     const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);

@@ -7,9 +7,10 @@
 
 namespace trajlo {
 
-/// Whether the points of a segment do not hold it at its present poses: fewer than `min_share` of
-/// them lie on planes of the map, or a handful. So it is while a LiDAR is covered or silent.
-bool IsStarved(const Window& window, const Segment& segment, double min_share);
+/// Whether the points of a segment do not hold it at its present poses: most of those that have a
+/// plane of the map do not lie on it, or only a handful does. So it is while a LiDAR is covered or
+/// silent. Points without a plane say nothing: they may see a new part of the world.
+bool IsStarved(const Window& window, const Segment& segment);
 
 /// Notices when the motion prior has carried the window for too long. Its uncertainty grows with
 /// sqrt(q t³ / 3); once it is more than a registration from the prediction bridges, the place must

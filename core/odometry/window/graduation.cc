@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window/graduation.h"
 
-#include <algorithm>
-
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/window_equations.h"
 
@@ -15,6 +13,8 @@ constexpr double kStandardDeviations = 3.0;
 constexpr double kShrink = 0.25;
 /// Where f of most points is below this, the kernel itself reaches far enough.
 constexpr double kSmallest = 1.0;
+/// About so many are asked.
+constexpr std::size_t kAsked = 128;
 
 }  // namespace
 
@@ -27,25 +27,31 @@ Graduation::Graduation(const Window& window) : reach_(Matrix6d::Zero()) {
 }
 
 bool Graduation::Widen(Segment* newest) {
-  std::vector<double> f;
-  f.reserve(newest->points.size());
-  for (const RegistrationPoint& point : newest->points) {
+  std::vector<RegistrationPoint>& points = newest->points;
+  const Eigen::Matrix3d R_end_world = newest->T_world_end.q.conjugate().toRotationMatrix();
+  const auto f = [&](const RegistrationPoint& point) {
     // The segment is short: the point's place at its end.
-    const Eigen::Vector3d normal = newest->T_world_end.q.conjugate() * point.normal_world;
+    const Eigen::Vector3d normal = R_end_world * point.normal_world;
     Vector6d J;
     J << normal, point.p_body_m.cross(normal);
-    f.push_back(J.dot(reach_ * J));
+    return J.dot(reach_ * J);
+  };
+  // What most points say, some of them say, too.
+  const std::size_t stride = 1 + points.size() / kAsked;
+  std::size_t asked = 0, far = 0;
+  for (std::size_t i = 0; i < points.size(); i += stride, ++asked) {
+    far += f(points[i]) >= kSmallest ? 1 : 0;
   }
-  reach_ *= kShrink;
-  const auto is_far = [](double f_of_point) { return f_of_point >= kSmallest; };
-  if (2 * std::count_if(f.begin(), f.end(), is_far) <= static_cast<std::ptrdiff_t>(f.size())) {
+  if (2 * far <= asked) {
+    reach_.setZero();
     return false;
   }
   weights_.clear();
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    weights_.push_back(newest->points[i].weight);
-    newest->points[i].weight /= 1.0 + f[i];
+  for (RegistrationPoint& point : points) {
+    weights_.push_back(point.weight);
+    point.weight /= 1.0 + f(point);
   }
+  reach_ *= kShrink;
   newest->linearization.reset();
   return true;
 }

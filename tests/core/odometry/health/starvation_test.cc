@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/starvation.h"
+
+#include <gtest/gtest.h>
+
+namespace trajlo {
+namespace {
+
+/// A body at rest that sees `all` points, of which `on_plane` lie on the floor they belong to, and
+/// `off_plane` a metre above it.
+Window Standing(int all, int on_plane, int off_plane) {
+  Window window;
+  window.segments.resize(1);
+  Segment& segment = window.segments[0];
+  segment.cloud.end_ns = 30'000'000;
+  segment.cloud.registration_points.resize(static_cast<std::size_t>(all));
+  for (int i = 0; i < on_plane + off_plane; ++i) {
+    const Eigen::Vector3d p(0.1 * i, 2.0, i < on_plane ? 0.0 : 1.0);
+    segment.points.push_back({p, 0.5, Eigen::Vector3d::UnitZ(), 0.0, 1.0, 0.0});
+  }
+  return window;
+}
+
+bool IsNewestStarved(const Window& window) { return IsStarved(window, window.segments.back()); }
+
+TEST(Starvation, PointsThatSeeANewPartOfTheWorldDoNotStarveABody) {
+  // A fast turn: one point in twenty is where the map has been, and agrees with it.
+  EXPECT_FALSE(IsNewestStarved(Standing(1000, 50, 0)));
+  EXPECT_FALSE(IsNewestStarved(Standing(1000, 50, 40)));
+}
+
+TEST(Starvation, PointsThatDisagreeWithTheirPlanesHoldNothing) {
+  EXPECT_TRUE(IsNewestStarved(Standing(1000, 300, 400)));
+}
+
+TEST(Starvation, AHandfulOfPointsHoldsNothing) {
+  EXPECT_TRUE(IsNewestStarved(Standing(10, 10, 0)));
+  EXPECT_TRUE(IsNewestStarved(Standing(0, 0, 0)));
+}
+
+TEST(Starvation, TheWatchIsBlindWhenThePredictionIsTooUncertainToStartFrom) {
+  StarvationWatch watch;
+  Vector6d density;
+  density << 3, 3, 3, 0.3, 0.3, 0.3;
+  watch.Begin(0);
+  EXPECT_FALSE(watch.IsBlind(10'000'000'000, density)) << "nothing was found yet";
+  watch.Fed(1'000'000'000);
+  // Three standard deviations are a metre where t³ = 1 / 9 s³.
+  EXPECT_FALSE(watch.IsBlind(1'475'000'000, density));
+  EXPECT_TRUE(watch.IsBlind(1'485'000'000, density));
+}
+
+}  // namespace
+}  // namespace trajlo
