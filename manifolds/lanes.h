@@ -12,6 +12,7 @@ namespace trajlo::lanes {
 /// Four points at a time: GCC and Clang turn this into AVX, or into pairs of SSE2 where that is
 /// all.
 typedef double Lane4 __attribute__((vector_size(32)));  // NOLINT(modernize-use-using): GCC's form
+typedef float Float4 __attribute__((vector_size(16)));  // NOLINT(modernize-use-using)
 
 template <typename T>
 inline constexpr int kLanes = 1;

@@ -10,6 +10,7 @@
 #include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/graduation.h"
+#include "core/odometry/window/points_to_world.h"
 #include "core/odometry/window/push_segment.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -290,11 +291,9 @@ void Odometry::AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3
   points_world_.resize(cloud.map_points.size());
   constexpr std::size_t kChunk = 512;
   threads_.ParallelFor((points_world_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    const std::size_t last = std::min(points_world_.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < last; ++i) {
-      const SegmentPoint& point = cloud.map_points[i];
-      points_world_[i] = motion.ToWorld(point.alpha, point.p_body_m.cast<double>());
-    }
+    const std::size_t first = chunk * kChunk;
+    const std::size_t count = std::min(kChunk, points_world_.size() - first);
+    PointsToWorld(motion, &cloud.map_points[first], count, &points_world_[first]);
   });
   map_.Insert(points_world_);
 }

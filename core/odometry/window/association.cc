@@ -3,58 +3,32 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
+
+#include "core/odometry/window/points_to_world.h"
 
 namespace trajlo {
 namespace {
 
-using lanes::At;
-using lanes::Lane4;
-
 constexpr std::size_t kBatch = MapPyramid::kMaxBatch;
-
-/// Takes at most kBatch points to the world, four at a time.
-void ToWorld(const SegmentMotion& motion, const SegmentPoint* points, std::size_t count,
-             std::array<Eigen::Vector3d, kBatch>* places_world) {
-  std::size_t i = 0;
-  // The series that lanes sum need less than a radian.
-  for (; motion.angle_squared < 1.0 && i + 4 <= count; i += 4) {
-    Lane4 alpha;
-    lanes::Vector3<Lane4> p;
-    for (int lane = 0; lane < 4; ++lane) {
-      const SegmentPoint& point = points[i + static_cast<std::size_t>(lane)];
-      At(alpha, lane) = point.alpha;
-      At(p.x, lane) = point.p_body_m.x();
-      At(p.y, lane) = point.p_body_m.y();
-      At(p.z, lane) = point.p_body_m.z();
-    }
-    const lanes::Vector3<Lane4> place = motion.ToWorld(alpha, p);
-    for (int lane = 0; lane < 4; ++lane) {
-      (*places_world)[i + static_cast<std::size_t>(lane)] = {place.x[lane], place.y[lane],
-                                                             place.z[lane]};
-    }
-  }
-  for (; i < count; ++i) {
-    (*places_world)[i] = motion.ToWorld(points[i].alpha, points[i].p_body_m.cast<double>());
-  }
-}
 
 }  // namespace
 
 /// Looks up planes for those of at most kBatch points that need one; returns how many they were.
 int SegmentAssociation::Renew(const SegmentPoint* points, std::size_t count,
                               const SegmentMotion& motion, const std::vector<LidarPath>& lidars,
-                              const MapPyramid& map, bool has_grown, Entry* entries) {
+                              const MapPyramid& map, bool has_grown, VoxelKey* cells,
+                              Plane* found) {
   std::array<Eigen::Vector3d, kBatch> places;
-  ToWorld(motion, points, count, &places);
+  PointsToWorld(motion, points, count, places.data());
   std::array<PlaneQuery, kBatch> queries;
   std::array<Plane, kBatch> planes;
   std::array<std::size_t, kBatch> asking;
   std::size_t asked = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool may_have_one = entries[i].plane.exists() || !has_grown;
-    if (may_have_one && map.IsAround(places[i], entries[i].cell)) continue;
-    entries[i].cell = map.CellOf(places[i]);
+    if (map.IsAround(places[i], cells[i]) && (!has_grown || found[i].exists())) continue;
+    cells[i] = map.CellOf(places[i]);
     const LidarPath& lidar = lidars[points[i].lidar];
     const Eigen::Vector3d origin = lidar.begin_world + points[i].alpha * lidar.way_world;
     queries[asked] = {places[i], (places[i] - origin).cast<float>()};
@@ -62,7 +36,7 @@ int SegmentAssociation::Renew(const SegmentPoint* points, std::size_t count,
   }
   if (asked == 0) return 0;
   map.FindPlanes(queries.data(), asked, planes.data());
-  for (std::size_t i = 0; i < asked; ++i) entries[asking[i]].plane = planes[i];
+  for (std::size_t i = 0; i < asked; ++i) found[asking[i]] = planes[i];
   return static_cast<int>(asked);
 }
 
@@ -71,12 +45,13 @@ int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
                                   const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
                                   const StepTolerance& tolerance, ThreadPool* threads,
                                   std::vector<RegistrationPoint>* associated) {
-  const bool is_first = entries_.empty();
+  const bool is_first = cells_.empty();
   if (!is_first && AreNear(T_begin, T_end, T_begin_, T_end_, tolerance)) return 0;
   T_begin_ = T_begin;
   T_end_ = T_end;
   const bool has_grown = std::exchange(map_version_, map.version()) != map.version();
-  entries_.resize(points.size());
+  cells_.resize(points.size(), VoxelKey::Constant(std::numeric_limits<int>::min()));
+  planes_.resize(points.size());
   const SegmentMotion motion(T_begin, T_end);
   std::vector<LidarPath> lidars;
   for (const Eigen::Vector3d& origin : lidar_origins_body_m) {
@@ -87,7 +62,7 @@ int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
   threads->ParallelFor(chunks, [&](std::size_t chunk) {
     const std::size_t first = chunk * kBatch;
     chunk_searched_[chunk] = Renew(&points[first], std::min(kBatch, points.size() - first), motion,
-                                   lidars, map, has_grown, &entries_[first]);
+                                   lidars, map, has_grown, &cells_[first], &planes_[first]);
   });
   int searched = 0;
   for (const int count : chunk_searched_) searched += count;
@@ -95,7 +70,7 @@ int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
 
   associated->clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Plane& plane = entries_[i].plane;
+    const Plane& plane = planes_[i];
     if (!plane.exists()) continue;
     associated->push_back({points[i].p_body_m.cast<double>(), points[i].alpha, plane.normal_world,
                            plane.offset_m, plane.weight, plane.normal_variance_rad2});

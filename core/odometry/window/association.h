@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "core/odometry/map/map_pyramid.h"
@@ -29,10 +28,6 @@ class SegmentAssociation {
                 ThreadPool* threads, std::vector<RegistrationPoint>* associated);
 
  private:
-  struct Entry {
-    VoxelKey cell = VoxelKey::Constant(std::numeric_limits<int>::min());
-    Plane plane;
-  };
   /// A LiDAR on its way through a segment.
   struct LidarPath {
     Eigen::Vector3d begin_world, way_world;
@@ -41,9 +36,11 @@ class SegmentAssociation {
   /// `has_grown`: the map, since the last call.
   static int Renew(const SegmentPoint* points, std::size_t count, const SegmentMotion& motion,
                    const std::vector<LidarPath>& lidars, const MapPyramid& map, bool has_grown,
-                   Entry* entries);
+                   VoxelKey* cells, Plane* found);
 
-  std::vector<Entry> entries_;
+  /// Of each point: the cell in which it asked, and the answer.
+  std::vector<VoxelKey> cells_;
+  std::vector<Plane> planes_;
   /// At the last call.
   SE3 T_begin_, T_end_;
   std::int64_t map_version_ = -1;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/window/points_to_world.h"
+
+#include <cstring>
+
+namespace trajlo {
+namespace {
+
+using lanes::Lane4;
+
+/// A point begins with p and alpha.
+static_assert(sizeof(SegmentPoint) == 5 * sizeof(float));
+Lane4 LoadFour(const SegmentPoint& point) {
+  lanes::Float4 four;
+  std::memcpy(&four, static_cast<const void*>(&point), sizeof(four));
+  return __builtin_convertvector(four, Lane4);
+}
+
+}  // namespace
+
+void PointsToWorld(const SegmentMotion& motion, const SegmentPoint* points, std::size_t count,
+                   Eigen::Vector3d* places_world) {
+  std::size_t i = 0;
+  // The series that lanes sum need less than a radian.
+  for (; motion.angle_squared < 1.0 && i + 4 <= count; i += 4) {
+    lanes::Vector3<Lane4> p = {LoadFour(points[i]), LoadFour(points[i + 1]),
+                               LoadFour(points[i + 2])};
+    Lane4 alpha = LoadFour(points[i + 3]);
+    lanes::Transpose(&p.x, &p.y, &p.z, &alpha);
+    const lanes::Vector3<Lane4> place = motion.ToWorld(alpha, p);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      places_world[i + lane] = {place.x[lane], place.y[lane], place.z[lane]};
+    }
+  }
+  for (; i < count; ++i) {
+    places_world[i] = motion.ToWorld(points[i].alpha, points[i].p_body_m.cast<double>());
+  }
+}
+
+}  // namespace trajlo
