@@ -17,7 +17,7 @@ FeignedInformation FeignedBy(const std::vector<RegistrationPoint>& points, const
   Matrix6d along_normals = Matrix6d::Zero();
   for (const RegistrationPoint& point : points) {
     const Eigen::Vector3d x_world = motion.ToWorld(point.alpha, point.p_body_m);
-    const double r = point.DistanceToPlane(x_world);
+    const double r = point.normal_world.dot(x_world) - point.offset_m;
     const double weight = point.weight * information;
     const double a = weight * noise.kernel.Weight(weight * r * r) * point.normal_variance_rad2;
     const Eigen::Vector3d x = R_end_world * x_world + T_end_world.t;
