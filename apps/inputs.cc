@@ -11,7 +11,7 @@ namespace trajlo {
 std::vector<std::string> InputsOf(const CommandLine& line, const std::string& flag) {
   if (!flag.empty()) RequireNoArguments(line);
   if (flag.empty() && line.arguments.empty()) {
-    throw UsageError("name a recording: " + line.command + " RECORDING -o RESULT");
+    throw UsageError("no recording given: " + line.command + " RECORDING -o RESULT");
   }
   if (!flag.empty()) return InputPaths(flag);
   std::vector<std::string> inputs;

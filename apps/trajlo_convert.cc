@@ -59,12 +59,12 @@ constexpr char kHelp[] =
       the poses in KITTI's format, and poses_times.txt; with .tum in TUM's
 
   trajlo_convert recording.bag part.bag --start_s=60 --duration_s=30
-      an excerpt; messages of all topics are copied byte by byte, by when they were recorded
+      an excerpt by time of recording; messages of all topics are copied byte by byte
   trajlo_convert broken.bag repaired.bag --compression=lz4
       everything that can be read, with a new index
   trajlo_convert recording.bag recording.mcap
       a bag of one kind (.bag, .mcap, .db3) as another: messages of all topics with all fields. From
-      ROS 2 to ROS 1 go clouds, PoseStamped, Odometry, Path and TF; others are left out, and named
+      ROS 2 to ROS 1 only clouds, PoseStamped, Odometry, Path and TF; the rest is left out and named
   trajlo_convert recording.pcap recording.mcap --layout=ouster
       the points of captures (.pcap) and folders of scans as a bag; a layout given for a bag
       converts its points instead of copying its messages

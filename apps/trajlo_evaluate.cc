@@ -70,7 +70,7 @@ constexpr char kHelp[] = R"(How far estimated trajectories are from the truth.
       pairs exactly as evo forms them
 
 Files
-  --format=FORMAT, --truth_format=FORMAT   auto (told by the content), tum, kitti or euroc
+  --format=FORMAT, --truth_format=FORMAT   auto (by the content), tum, kitti or euroc
   --truth=FILE                the ground truth; all arguments are estimates then
   --names=A,B                 names of the estimates, for tables and files
   --times=FILE                stamps for the lines of KITTI files

@@ -63,7 +63,7 @@ ExitCode Info(const trajlo::CommandLine& line) {
                          "--velodyne_model");
   request.velodyne_model = config.input.velodyne_model;
   if (request.recordings.empty()) {
-    throw trajlo::UsageError("name a recording: trajlo_info RECORDING");
+    throw trajlo::UsageError("no recording given: trajlo_info RECORDING");
   }
   return trajlo::InfoJob(request, trajlo::HandleInterrupts());
 }

@@ -47,6 +47,7 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
         result/map.ply          the map at the end
         result/view.ply         some points of some scans, for the 3-D view that draw_run.py makes
         result/windows.csv      what happened in every window
+        result/flags.csv        for every pose, whether it can be trusted
         result/config.yaml      all options as they were
         result/run.json         counts, times, warnings, and how the run ended
   trajlo_run flight.bag -o result --config ouster
@@ -61,7 +62,7 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
   trajlo_run front rear -o result --config rig.yaml
       several LiDARs; sensor.T_body_lidar in rig.yaml says where each of them sits
   trajlo_run --show_config
-      every option with its value and its meaning (with --config and --set: as they leave it)
+      every option with its value and its meaning (with --config and --set: as these set it)
 
 Flags:
   -o, --output=FOLDER           where the result goes
@@ -78,7 +79,7 @@ Flags:
   --overwrite                   replace an earlier result
   --quiet                       print warnings and errors only
   --list_configs                the names that --config knows, a sentence each
-  --show_config, --show_expert_config   the options, and those for who studies the estimator
+  --show_config, --show_expert_config   the options for users, and those for research
   -h, --help, --version         --version also names the libraries in use
   --completion=bash|zsh         print the shell's completion: source <(trajlo_run --completion=bash)
 

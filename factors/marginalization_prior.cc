@@ -89,14 +89,7 @@ bool MarginalizationPriorCost::Evaluate(double const* const* parameters, double*
   s.reserve(static_cast<std::size_t>(prior_->poses()));
   for (int i = 0; i < prior_->poses(); ++i) s.push_back(SE3::FromData(parameters[i]));
   Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = prior_->Residual(s);
-  if (jacobians == nullptr) return true;
-  const Eigen::MatrixXd tangent = prior_->Jacobian(s);
-  for (int i = 0; i < prior_->poses(); ++i) {
-    if (jacobians[i] == nullptr) continue;
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>> J(jacobians[i],
-                                                                            num_residuals(), 7);
-    J.noalias() = tangent.middleCols<6>(6 * i) * Se3MinusJacobian(s[static_cast<std::size_t>(i)]);
-  }
+  if (jacobians != nullptr) WriteJacobians(s.data(), prior_->Jacobian(s), jacobians);
   return true;
 }
 

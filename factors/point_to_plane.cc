@@ -13,7 +13,7 @@ double EvaluatePointToPlane(const RegistrationPoint& point, double sigma_m, cons
   const Eigen::Vector3d& n = point.normal_world;
   const Vector6d tau = Minus(T_end, T_begin);
   const SE3 T = Plus(T_begin, point.alpha * tau);
-  const double residual = scale * (n.dot(T * point.p_body_m) - point.offset_m);
+  const double residual = scale * point.DistanceToPlane(T * point.p_body_m);
   if (wrt_poses == nullptr) return residual;
 
   const Eigen::Matrix3d R = T.q.toRotationMatrix();
@@ -31,12 +31,7 @@ bool PointToPlaneCost::Evaluate(double const* const* parameters, double* residua
   Eigen::Matrix<double, 1, 12> wrt_poses;
   residuals[0] = EvaluatePointToPlane(point_, sigma_m_, poses[0], poses[1],
                                       jacobians == nullptr ? nullptr : &wrt_poses);
-  if (jacobians == nullptr) return true;
-  for (int block = 0; block < 2; ++block) {
-    if (jacobians[block] == nullptr) continue;
-    Eigen::Map<Eigen::Matrix<double, 1, 7, Eigen::RowMajor>> J(jacobians[block]);
-    J.noalias() = wrt_poses.segment<6>(6 * block) * Se3MinusJacobian(poses[block]);
-  }
+  if (jacobians != nullptr) WriteJacobians(poses, wrt_poses, jacobians);
   return true;
 }
 

@@ -17,6 +17,11 @@ struct RegistrationPoint {
   /// By how much the noise of its map points tilts the plane: the variance of n in every direction
   /// within the plane (rad²).
   double normal_variance_rad2 = 0.0;
+
+  /// nᵀx - d, metres, of the point at `x_world`.
+  double DistanceToPlane(const Eigen::Vector3d& x_world) const {
+    return normal_world.dot(x_world) - offset_m;
+  }
 };
 
 }  // namespace trajlo

@@ -22,11 +22,6 @@ struct RobustKernel {
   KernelKind kind = KernelKind::kCauchy;
   double width = 1.0;
 
-  struct Value {
-    double rho;     ///< rho(s)
-    double weight;  ///< rho'(s)
-  };
-
   /// rho'(s) alone: what a Gauss-Newton step needs, without the logarithm of the Cauchy cost.
   double Weight(double s) const {
     const double a = width * width;
@@ -63,8 +58,6 @@ struct RobustKernel {
     }
     return s;
   }
-
-  Value Evaluate(double s) const { return {Rho(s), Weight(s)}; }
 };
 
 /// The same kernel as a Ceres loss, for factors with one residual a point. The second derivative is
@@ -74,9 +67,8 @@ class RobustKernelLoss final : public ceres::LossFunction {
  public:
   explicit RobustKernelLoss(const RobustKernel& kernel) : kernel_(kernel) {}
   void Evaluate(double s, double rho[3]) const override {
-    const RobustKernel::Value value = kernel_.Evaluate(s);
-    rho[0] = value.rho;
-    rho[1] = value.weight;
+    rho[0] = kernel_.Rho(s);
+    rho[1] = kernel_.Weight(s);
     rho[2] = 0.0;
   }
 

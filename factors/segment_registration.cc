@@ -132,6 +132,23 @@ StumpffSeries<double> StumpffOf<double>(const double& s, double) {
   return Stumpff(s);
 }
 
+/// Some points in the begin frame, and their distances r to their planes (m).
+template <typename T>
+struct LocatedPoints {
+  T alpha, weight;
+  StumpffSeries<T> c;
+  Vector3<T> p0, n0;
+  T r;
+
+  LocatedPoints(const GatheredPoints<T>& in, const SegmentMotion& m)
+      : alpha(in.alpha),
+        weight(in.weight),
+        c(StumpffOf<T>(alpha * alpha * m.angle_squared, m.angle_squared)),
+        p0(m.MoveToBegin<T>(alpha, c, in.p)),
+        n0(RotateInverse(m.R_begin, in.n)),
+        r(Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(m.t_begin)) - in.offset)) {}
+};
+
 /// Sums over [j; v] by blocks of 3 x 3, which the registers hold while a block of points is added.
 template <typename T>
 class BlockSum {
@@ -195,36 +212,21 @@ struct SegmentLinearizer::Lanes {
 };
 
 template <typename T>
-T SegmentLinearizer::Residual(const RegistrationPoint* points, T* weight) const {
-  const GatheredPoints<T> in(points);
-  const SegmentMotion& m = motion_;
-  const StumpffSeries<T> c = StumpffOf<T>(in.alpha * in.alpha * m.angle_squared, m.angle_squared);
-  const Vector3<T> p0 = m.MoveToBegin<T>(in.alpha, c, in.p);
-  const Vector3<T> n0 = RotateInverse(m.R_begin, in.n);
-  *weight = in.weight;
-  return Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(m.t_begin)) - in.offset);
-}
-
-template <typename T>
 void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* points, int group,
                                        Lanes<T>* sums) const {
-  const GatheredPoints<T> in(points);
-  const T alpha = in.alpha;
   const SegmentMotion& m = motion_;
-  const StumpffSeries<T> c = StumpffOf<T>(alpha * alpha * m.angle_squared, m.angle_squared);
-  const Vector3<T> p0 = m.MoveToBegin<T>(alpha, c, in.p);
-  const Vector3<T> n0 = RotateInverse(m.R_begin, in.n);
-  const T r = Dot(n0, p0) + (Dot(in.n, Broadcast3<T>(m.t_begin)) - in.offset);
-  const T information = in.weight / (noise_.sigma_m * noise_.sigma_m);
-  const T w = information * sums->cost.AddAndWeigh(information * r * r);
+  const LocatedPoints<T> at(GatheredPoints<T>(points), m);
+  const T information = at.weight / (noise_.sigma_m * noise_.sigma_m);
+  const T w = information * sums->cost.AddAndWeigh(information * at.r * at.r);
 
   // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x
   // theta].
-  const Vector3<T> j1 = n0;
-  const Vector3<T> j2 = Cross(p0, n0);
+  const Vector3<T> j1 = at.n0;
+  const Vector3<T> j2 = Cross(at.p0, at.n0);
   const Vector3<T> rho = Broadcast3<T>(m.rho);
   const Vector3<T> theta = Broadcast3<T>(m.theta);
-  const se3::LeftJacobianCoefficients<T> a(c);
+  const se3::LeftJacobianCoefficients<T> a(at.c);
+  const T alpha = at.alpha;
   const T alpha2 = alpha * alpha;
   const T b[4] = {a.a1 * alpha, a.a2 * alpha2, a.a3 * alpha2 * alpha, a.a4 * alpha2 * alpha2};
   Vector3<T> v1 = b[3] * j1;
@@ -242,7 +244,7 @@ void SegmentLinearizer::LinearizeLanes(const RegistrationPoint* points, int grou
   const T u[12] = {j1.x, j1.y, j1.z, j2.x, j2.y, j2.z, v1.x, v1.y, v1.z, v2.x, v2.y, v2.z};
   for (int row = 0; row < 12; ++row) {
     const T wu = w * u[row];
-    sums->g[row] += wu * r;
+    sums->g[row] += wu * at.r;
     sums->H.Set(group, row, u[row], wu);
   }
 }
@@ -271,9 +273,8 @@ double SegmentLinearizer::RunCost(const RegistrationPoint* points, size_t count)
   KernelSum<T> cost(noise_.kernel);
   const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
   for (size_t i = 0; i < count; i += kLanes<T>) {
-    T weight;
-    const T r = Residual<T>(points + i, &weight);
-    cost.Add(weight * information * r * r);
+    const LocatedPoints<T> at(GatheredPoints<T>(points + i), motion_);
+    cost.Add(at.weight * information * at.r * at.r);
     cost.EndBlock();
   }
   return cost.Total();
@@ -321,51 +322,35 @@ RegistrationNormalEquations LinearizeSegment(const std::vector<RegistrationPoint
   return linearizer.Finish(linearizer.Linearize(points.data(), points.size()));
 }
 
-void WriteCondensed(const RegistrationNormalEquations& equations, const SE3& T_begin,
-                    const SE3& T_end, double* residuals, double** jacobians) {
+bool PreparedRegistrationCost::Evaluate(double const* const* parameters, double* residuals,
+                                        double** jacobians) const {
   Eigen::Map<Eigen::Matrix<double, 13, 1>> r(residuals);
   if (jacobians == nullptr) {
     r.setZero();
-    r[12] = std::sqrt(2.0 * equations.cost);
-    return;
+    r[12] = std::sqrt(2.0 * equations_->cost);
+    return std::isfinite(equations_->cost);
   }
-  const SquareRoot<12> root = MakeSquareRoot<12>(equations.H, equations.g);
+  const SquareRoot<12> root = MakeSquareRoot<12>(equations_->H, equations_->g);
   r.head<12>() = root.s;
-  r[12] = std::sqrt(std::max(0.0, 2.0 * equations.cost - root.s.squaredNorm()));
-  const SE3* poses[2] = {&T_begin, &T_end};
-  for (int block = 0; block < 2; ++block) {
-    if (jacobians[block] == nullptr) continue;
-    Eigen::Map<Eigen::Matrix<double, 13, 7, Eigen::RowMajor>> J(jacobians[block]);
-    J.topRows<12>().noalias() = root.S.middleCols<6>(6 * block) * Se3MinusJacobian(*poses[block]);
-    J.row(12).setZero();
-  }
+  r[12] = std::sqrt(std::max(0.0, 2.0 * equations_->cost - root.s.squaredNorm()));
+  Eigen::Matrix<double, 13, 12> J;
+  J << root.S, Eigen::Matrix<double, 1, 12>::Zero();
+  const SE3 T[2] = {SE3::FromData(parameters[0]), SE3::FromData(parameters[1])};
+  WriteJacobians(T, J, jacobians);
+  return std::isfinite(equations_->cost);
 }
-
-SegmentRegistrationCost::SegmentRegistrationCost(const std::vector<RegistrationPoint>* points,
-                                                 const RegistrationNoise& noise)
-    : points_(points), noise_(noise) {}
 
 bool SegmentRegistrationCost::Evaluate(double const* const* parameters, double* residuals,
                                        double** jacobians) const {
-  const SE3 T_begin = SE3::FromData(parameters[0]);
-  const SE3 T_end = SE3::FromData(parameters[1]);
-  const bool is_known = last_ && std::equal(parameters[0], parameters[0] + 7, last_->poses) &&
-                        std::equal(parameters[1], parameters[1] + 7, last_->poses + 7);
+  const bool is_known = last_ &&
+                        std::equal(parameters[0], parameters[0] + 7, last_->T_begin.data()) &&
+                        std::equal(parameters[1], parameters[1] + 7, last_->T_end.data());
   if (!is_known) {
-    last_.emplace();
-    std::copy_n(parameters[0], 7, last_->poses);
-    std::copy_n(parameters[1], 7, last_->poses + 7);
-    last_->equations = LinearizeSegment(*points_, T_begin, T_end, noise_);
+    const SE3 T_begin = SE3::FromData(parameters[0]);
+    const SE3 T_end = SE3::FromData(parameters[1]);
+    last_ = {T_begin, T_end, LinearizeSegment(*points_, T_begin, T_end, noise_)};
   }
-  WriteCondensed(last_->equations, T_begin, T_end, residuals, jacobians);
-  return std::isfinite(last_->equations.cost);
-}
-
-bool PreparedRegistrationCost::Evaluate(double const* const* parameters, double* residuals,
-                                        double** jacobians) const {
-  WriteCondensed(*equations_, SE3::FromData(parameters[0]), SE3::FromData(parameters[1]), residuals,
-                 jacobians);
-  return std::isfinite(equations_->cost);
+  return PreparedRegistrationCost(&last_->equations).Evaluate(parameters, residuals, jacobians);
 }
 
 }  // namespace trajlo

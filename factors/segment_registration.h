@@ -66,8 +66,6 @@ class SegmentLinearizer {
   template <typename T>
   void LinearizeLanes(const RegistrationPoint* points, int group, Lanes<T>* sums) const;
   template <typename T>
-  T Residual(const RegistrationPoint* points, T* weight) const;
-  template <typename T>
   void RunLinearize(const RegistrationPoint* points, size_t count, Sum* sum) const;
   template <typename T>
   double RunCost(const RegistrationPoint* points, size_t count) const;
@@ -82,42 +80,18 @@ RegistrationNormalEquations LinearizeSegment(const std::vector<RegistrationPoint
                                              const SE3& T_begin, const SE3& T_end,
                                              const RegistrationNoise& noise);
 
-/// Condenses normal equations into 13 rows of Ceres with the same cost, gradient and Gauss-Newton
-/// Hessian: with H = SᵀS and Sᵀs = g,
+/// The registration of a whole segment as one block of 13 residuals with the cost, gradient and
+/// Gauss-Newton Hessian of one PointToPlaneCost a point with a RobustKernelLoss. With the normal
+/// equations H = SᵀS and Sᵀs = g at the present poses,
 ///
 ///   residual = [s; sqrt(2 cost - |s|²)],  Jacobian = [S; 0].
 ///
 /// The root is real because every kernel is concave: |s|² = gᵀH⁻¹g <= sum rho'(s_i) s_i <= 2 cost.
 /// Without Jacobians only the norm matters: residual = [0; sqrt(2 cost)].
-void WriteCondensed(const RegistrationNormalEquations& equations, const SE3& T_begin,
-                    const SE3& T_end, double* residuals, double** jacobians);
-
-/// The registration of a whole segment as one block of 13 residuals; equal to one PointToPlaneCost
-/// with a RobustKernelLoss for each point. Parameter blocks: T_begin, T_end.
-/// Ceres asks for the cost of a step and then, as nearly every step is accepted, for the Jacobians
-/// at the same poses: both are computed in one pass and kept for the second question.
-class SegmentRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> {
- public:
-  /// `points` must outlive the factor and stay as they are.
-  SegmentRegistrationCost(const std::vector<RegistrationPoint>* points,
-                          const RegistrationNoise& noise);
-
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override;
-
- private:
-  const std::vector<RegistrationPoint>* points_;
-  RegistrationNoise noise_;
-  /// The last answer and its poses; a block is evaluated by one thread at a time.
-  struct Evaluation {
-    double poses[14];
-    RegistrationNormalEquations equations;
-  };
-  mutable std::optional<Evaluation> last_;
-};
-
-/// The same block where a ceres::EvaluationCallback has already computed `equations` for the state
-/// that is being evaluated (for all segments of a window in parallel).
+/// Parameter blocks: T_begin, T_end.
+///
+/// This one takes normal equations that a ceres::EvaluationCallback has already computed for the
+/// state that is being evaluated (for all segments of a window in parallel).
 class PreparedRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> {
  public:
   /// `equations` must outlive the factor.
@@ -129,6 +103,30 @@ class PreparedRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7>
 
  private:
   const RegistrationNormalEquations* equations_;
+};
+
+/// The same block, which computes its normal equations by itself. Ceres asks for the cost of a step
+/// and then, as nearly every step is accepted, for the Jacobians at the same poses: both are
+/// computed in one pass and kept for the second question.
+class SegmentRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> {
+ public:
+  /// `points` must outlive the factor and stay as they are.
+  SegmentRegistrationCost(const std::vector<RegistrationPoint>* points,
+                          const RegistrationNoise& noise)
+      : points_(points), noise_(noise) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  const std::vector<RegistrationPoint>* points_;
+  RegistrationNoise noise_;
+  /// The last answer and its poses; a block is evaluated by one thread at a time.
+  struct Evaluation {
+    SE3 T_begin, T_end;
+    RegistrationNormalEquations equations;
+  };
+  mutable std::optional<Evaluation> last_;
 };
 
 }  // namespace trajlo

@@ -22,12 +22,8 @@ struct SmoothnessTerm {
   /// 1/sigma by component: translation (1/m) first, then rotation (1/rad).
   Vector6d sqrt_information = Vector6d::Ones();
 
-  struct Linearization {
-    Vector6d residual;
-    Matrix6d wrt_begin, wrt_end;
-  };
-  Linearization Linearize(const SE3& T_begin, const SE3& T_end) const;
   Vector6d Residual(const SE3& T_begin, const SE3& T_end) const;
+  Eigen::Matrix<double, 6, 12> Jacobian(const SE3& T_begin, const SE3& T_end) const;
 };
 
 /// SmoothnessTerm as a Ceres block. Parameter blocks: T_begin, T_end.

@@ -16,17 +16,15 @@ Vector6d WhiteNoiseAccelerationTerm::Residual(const SE3& T_0, const SE3& T_1,
   return sqrt_information.cwiseProduct(Minus(T_2, T_1) / second_s - Minus(T_1, T_0) / first_s);
 }
 
-WhiteNoiseAccelerationTerm::Linearization WhiteNoiseAccelerationTerm::Linearize(
-    const SE3& T_0, const SE3& T_1, const SE3& T_2) const {
+Eigen::Matrix<double, 6, 18> WhiteNoiseAccelerationTerm::Jacobian(const SE3& T_0, const SE3& T_1,
+                                                                  const SE3& T_2) const {
   const Vector6d tau_1 = Minus(T_1, T_0);
   const Vector6d tau_2 = Minus(T_2, T_1);
-  Linearization linear;
-  linear.residual = sqrt_information.cwiseProduct(tau_2 / second_s - tau_1 / first_s);
-  linear.wrt_poses << se3::LeftJacobianInverse(tau_1) / first_s,
+  Eigen::Matrix<double, 6, 18> J;
+  J << se3::LeftJacobianInverse(tau_1) / first_s,
       -se3::LeftJacobianInverse(tau_2) / second_s - se3::RightJacobianInverse(tau_1) / first_s,
       se3::RightJacobianInverse(tau_2) / second_s;
-  linear.wrt_poses = sqrt_information.asDiagonal() * linear.wrt_poses;
-  return linear;
+  return sqrt_information.asDiagonal() * J;
 }
 
 bool WhiteNoiseAccelerationCost::Evaluate(double const* const* parameters, double* residuals,
@@ -34,17 +32,8 @@ bool WhiteNoiseAccelerationCost::Evaluate(double const* const* parameters, doubl
   const SE3 T[3] = {SE3::FromData(parameters[0]), SE3::FromData(parameters[1]),
                     SE3::FromData(parameters[2])};
   Eigen::Map<Vector6d> r(residuals);
-  if (jacobians == nullptr) {
-    r = term_->Residual(T[0], T[1], T[2]);
-    return true;
-  }
-  const WhiteNoiseAccelerationTerm::Linearization linear = term_->Linearize(T[0], T[1], T[2]);
-  r = linear.residual;
-  for (int block = 0; block < 3; ++block) {
-    if (jacobians[block] == nullptr) continue;
-    Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobians[block]);
-    J.noalias() = linear.wrt_poses.middleCols<6>(6 * block) * Se3MinusJacobian(T[block]);
-  }
+  r = term_->Residual(T[0], T[1], T[2]);
+  if (jacobians != nullptr) WriteJacobians(T, term_->Jacobian(T[0], T[1], T[2]), jacobians);
   return true;
 }
 

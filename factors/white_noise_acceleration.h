@@ -36,12 +36,8 @@ struct WhiteNoiseAccelerationTerm {
   /// `density`: q by component, translation (m²/s³) first, then rotation (rad²/s³).
   WhiteNoiseAccelerationTerm(const Vector6d& density, double delta_1_s, double delta_2_s);
 
-  struct Linearization {
-    Vector6d residual;
-    Eigen::Matrix<double, 6, 18> wrt_poses;  ///< Of T_0, T_1 and T_2.
-  };
   Vector6d Residual(const SE3& T_0, const SE3& T_1, const SE3& T_2) const;
-  Linearization Linearize(const SE3& T_0, const SE3& T_1, const SE3& T_2) const;
+  Eigen::Matrix<double, 6, 18> Jacobian(const SE3& T_0, const SE3& T_1, const SE3& T_2) const;
 };
 
 /// WhiteNoiseAccelerationTerm as a Ceres block. Parameter blocks: T_0, T_1, T_2.

@@ -17,14 +17,26 @@ inline Eigen::Matrix<double, 7, 6, Eigen::RowMajor> Se3PlusJacobian(const SE3& T
   return J;
 }
 
-/// d(Y ⊖ T)/dY at Y = T. A factor turns its 6-column tangent Jacobian J into Ceres's 7-column one
-/// by J * Se3MinusJacobian(T), because Se3MinusJacobian(T) * Se3PlusJacobian(T) = I.
+/// d(Y ⊖ T)/dY at Y = T; Se3MinusJacobian(T) * Se3PlusJacobian(T) = I.
 inline Eigen::Matrix<double, 6, 7, Eigen::RowMajor> Se3MinusJacobian(const SE3& T) {
   Eigen::Matrix<double, 6, 7, Eigen::RowMajor> J = Eigen::Matrix<double, 6, 7>::Zero();
   J.block<3, 3>(3, 0) = 2.0 * (T.q.w() * Eigen::Matrix3d::Identity() - so3::Hat(T.q.vec()));
   J.block<3, 1>(3, 3) = -2.0 * T.q.vec();
   J.block<3, 3>(0, 4) = T.q.toRotationMatrix().transpose();
   return J;
+}
+
+/// What a factor gives Ceres: of each pose whose Jacobian is asked for, the 6 columns of `tangent`
+/// that are its own, turned into Ceres's 7.
+template <typename Tangent>
+void WriteJacobians(const SE3* poses, const Eigen::MatrixBase<Tangent>& tangent,
+                    double** jacobians) {
+  using Ambient = Eigen::Matrix<double, Tangent::RowsAtCompileTime, 7, Eigen::RowMajor>;
+  for (Eigen::Index i = 0; 6 * i < tangent.cols(); ++i) {
+    if (jacobians[i] == nullptr) continue;
+    Eigen::Map<Ambient> J(jacobians[i], tangent.rows(), 7);
+    J.noalias() = tangent.template middleCols<6>(6 * i) * Se3MinusJacobian(poses[i]);
+  }
 }
 
 /// SE(3) as a Ceres manifold: 7 ambient coordinates [qx qy qz qw tx ty tz], 6 tangent coordinates

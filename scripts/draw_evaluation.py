@@ -12,7 +12,7 @@ import argparse
 import pathlib
 import sys
 
-from trajlo_report import evaluated, figures_evaluation, files, page
+from trajlo_report import evaluated, evaluation_words, figures_evaluation, files, page
 from trajlo_report import theme
 
 WIDTHS = {"column": theme.COLUMN_IN, "page": theme.PAGE_IN}
@@ -38,6 +38,7 @@ def main():
     truth = document.get("truth", "")
     text = page.render(
         "evaluation.html", title=arguments.title, estimates=estimates, figures=drawn,
+        conclusions=evaluation_words.conclusions(estimates),
         truth=truth.get("file", truth) if isinstance(truth, dict) else truth,
         undrawn=[item.name for item in estimates if item.name not in shown],
         settings=page.flatten(document.get("settings", {})),
@@ -45,7 +46,8 @@ def main():
         warnings=document.get("warnings", []))
     report = output / "report.html"
     files.write_atomically(report, text)
-    print(f"{report}: {len(estimates)} estimates, {len(drawn)} figures in {output / 'figures'}")
+    count = "1 estimate" if len(estimates) == 1 else f"{len(estimates)} estimates"
+    print(f"{report}: {count}, {len(drawn)} figures in {output / 'figures'}")
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ std::string LockstepTable(const CompareReport& report) {
   std::string text = Format("lockstep: %d windows, each solved by all from the same start\n",
                             report.lockstep.front().windows());
   text += Format("  %-22s %7s %9s %9s %9s %9s %7s %10s %10s\n", "variant", "steps", "rejected",
-                 "eval ms", "linear ms", "total ms", "x first", "median m", "max m");
+                 "eval ms", "linear ms", "total ms", "ratio", "median m", "max m");
   for (std::size_t i = 0; i < report.lockstep.size(); ++i) {
     const LockstepTotals& t = report.lockstep[i];
     text += Format("  %-22s %7.2f %9d %9.3f %9.3f %9.3f %7.2f %10.1e %10.1e\n",
@@ -46,16 +46,21 @@ std::string LockstepTable(const CompareReport& report) {
 }
 
 std::string FreeTable(const CompareReport& report) {
-  std::string text = "free: each runs the whole recording by itself\n";
-  text += Format("  %-22s %9s %7s %9s %9s %11s  %-22s %9s\n", "variant", "cpu s", "x first",
-                 "solve ms", "rejected", "max from 1st", "parts at s", "ATE m");
+  std::string text =
+      "free: each runs the whole recording by itself; ratio and apart: to the first variant\n";
+  text += Format("  %-22s %9s %7s %9s %9s %11s %13s %9s\n", "variant", "cpu s", "ratio", "solve ms",
+                 "rejected", "apart m", "apart after s", "ATE m");
   for (const FreeResult& r : report.free) {
     const double windows = std::max(1, static_cast<int>(r.windows.windows));
-    text += Format(
-        "  %-22s %9.2f %7.2f %9.3f %9d %11.1e  %-22s %9s%s\n", r.name.c_str(), r.cpu_s,
-        Ratio(r.cpu_s, report.free.front().cpu_s), r.windows.solve_ms / windows, r.rejected_steps,
-        r.max_from_first_m, r.parts_at_ns ? FormatSeconds(*r.parts_at_ns).c_str() : "never",
-        r.ate_rmse_m ? Format("%.4f", *r.ate_rmse_m).c_str() : "-", r.lost_at_ns ? "  lost" : "");
+    const std::string apart_after =
+        r.parts_at_ns
+            ? Format("%.2f", 1e-9 * static_cast<double>(*r.parts_at_ns - r.poses.front().t_ns))
+            : "never";
+    text += Format("  %-22s %9.2f %7.2f %9.3f %9d %11.1e %13s %9s%s\n", r.name.c_str(), r.cpu_s,
+                   Ratio(r.cpu_s, report.free.front().cpu_s), r.windows.solve_ms / windows,
+                   r.rejected_steps, r.max_from_first_m, apart_after.c_str(),
+                   r.ate_rmse_m ? Format("%.4f", *r.ate_rmse_m).c_str() : "-",
+                   r.lost_at_ns ? "  lost" : "");
   }
   return text;
 }

@@ -40,7 +40,7 @@ std::vector<fs::path> EarlierErrors(const fs::path& folder) {
 void Prepare(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw OutputError(folder, "the folder cannot be made: " + error.message());
+  if (error) throw OutputError(folder, "the folder cannot be created: " + error.message());
   std::vector<fs::path> earlier = EarlierErrors(folder);
   for (const char* name : kFiles) earlier.push_back(folder / name);
   for (const fs::path& file : earlier) {

@@ -2,6 +2,7 @@
 #include "apps/info/info_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/evaluation/format_text.h"
@@ -33,6 +34,11 @@ std::string Percent(std::size_t part, std::size_t whole) {
 }
 
 std::string Milliseconds(double seconds) { return FormatText("%.4g ms", 1e3 * seconds); }
+
+/// "100 ms before" or "2 ms after"
+std::string Displacement(double after_s) {
+  return Milliseconds(std::abs(after_s)) + (after_s < 0.0 ? " before" : " after");
+}
 
 std::string TopicTable(const RecordingInspection& recording) {
   std::size_t name_width = 5, type_width = 4;
@@ -73,7 +79,7 @@ std::string FieldText(const CloudInspection& cloud) {
 
 std::string PointLines(const PointSummary& points) {
   std::string lines =
-      Line("points", FormatText("%zu a message (%zu to %zu), %zu in all, ", points.median,
+      Line("points", FormatText("%zu per message (%zu to %zu), %zu in all, ", points.median,
                                 points.fewest, points.most, points.total) +
                          Percent(points.not_finite, points.total) + " NaN, " +
                          Percent(points.at_origin, points.total) + " at the origin");
@@ -148,12 +154,11 @@ std::string TimeLines(const CloudInspection& cloud) {
   }
   std::string lines = Line("times", meaning) + EvidenceLines(convention.evidence);
   if (cloud.sweeps) {
-    lines +=
-        Line("sweeps",
-             Milliseconds(cloud.sweeps->span_s) + " long, " + Milliseconds(cloud.sweeps->pause_s) +
-                 " from one to the next; the stamp is " +
-                 Milliseconds(cloud.sweeps->stamp_after_first_s) + " after the first point and " +
-                 Milliseconds(cloud.sweeps->stamp_after_last_s) + " after the last");
+    lines += Line("sweeps",
+                  Milliseconds(cloud.sweeps->span_s) + " long, " +
+                      Milliseconds(cloud.sweeps->pause_s) + " from one to the next; the stamp is " +
+                      Displacement(cloud.sweeps->stamp_after_first_s) + " the first point and " +
+                      Displacement(cloud.sweeps->stamp_after_last_s) + " the last");
   }
   return lines;
 }

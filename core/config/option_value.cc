@@ -154,7 +154,7 @@ std::string AllowedText(const Option& option) {
           [](const RealField& field) {
             return "a number from " + NumberText(field.min) + " to " + NumberText(field.max);
           },
-          [](const TextField&) { return std::string("a text"); },
+          [](const TextField&) { return std::string("text"); },
           [](const ChoiceField& field) { return Join(field.names); },
           [](const ExtrinsicsField&) { return std::string("a list, one transform per LiDAR"); },
           [&](const ListField& field) { return AllowedInList(field, option); },

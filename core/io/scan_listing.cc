@@ -138,7 +138,7 @@ ScanListing ListScans(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(path, error)) {
     if (error) throw InputError(path, "cannot be opened: " + error.message(), "");
-    throw InputError(path, "there is no such folder", "Check the path. " + std::string(kMend));
+    throw InputError(path, "there is no such file or folder", "Check the path.");
   }
   if (!fs::is_directory(path, error)) throw InputError(path, "this is not a folder", kMend);
 

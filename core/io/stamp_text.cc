@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
 
 namespace trajlo {
@@ -48,16 +49,6 @@ std::optional<Decimal> SplitDecimal(std::string_view text) {
   }
   decimal.exponent += exponent;
   return decimal;
-}
-
-/// Days from 1970-01-01 in the Gregorian calendar (H. Hinnant's days_from_civil).
-std::int64_t DaysFromCivil(std::int64_t year, int month, int day) {
-  year -= month <= 2 ? 1 : 0;
-  const std::int64_t era = (year >= 0 ? year : year - 399) / 400;
-  const std::int64_t year_of_era = year - era * 400;
-  const std::int64_t day_of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  return era * 146097 + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year -
-         719468;
 }
 
 /// The number in text[begin, begin + size); -1 if it is not all digits.
@@ -112,8 +103,13 @@ std::optional<std::int64_t> ParseDateTimeNs(std::string_view text) {
   }
   const auto seconds_ns = ParseDecimalNs(text.substr(17), 1'000'000'000);
   if (!seconds_ns || *seconds_ns > 61'000'000'000) return {};
-  const std::int64_t minutes = DaysFromCivil(year, month, day) * 1440 + hour * 60 + minute;
-  return minutes * 60'000'000'000 + *seconds_ns;
+  std::tm date{};
+  date.tm_year = year - 1900;
+  date.tm_mon = month - 1;
+  date.tm_mday = day;
+  date.tm_hour = hour;
+  date.tm_min = minute;
+  return std::int64_t{::timegm(&date)} * 1'000'000'000 + *seconds_ns;
 }
 
 std::optional<std::int64_t> UnitOfWholeStampNs(std::string_view digits) {

@@ -134,7 +134,7 @@ void Odometry::Step(SegmentCloud cloud) {
     return;
   }
   NoteFed();
-  window_.is_believed = IsBelievable(statistics, window_, options_.lost);
+  window_.is_believed = IsBelievable(statistics, window_);
   if (window_.is_believed) {
     Learn(predicted.back());
   } else {
@@ -222,8 +222,7 @@ void Odometry::Search(bool is_last) {
   const ReturnSweep sweep = search_->Look(map_, &threads_);
   const LastSeen& last = search_->last();
   const double unseen_s = 1e-9 * static_cast<double>(sweep.cloud.begin_ns - last.t_ns);
-  if (sweep.T_world_begin &&
-      IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s, options_.lost)) {
+  if (sweep.T_world_begin && IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s)) {
     Resume(sweep);
   } else if (is_last || search_->IsHopeless()) {
     GetLost(sweep);

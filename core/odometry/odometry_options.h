@@ -21,11 +21,11 @@ struct WindowOptions {
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kUsers, "segments", segments, Range<int>{1, 100},
-      "Segments that are estimated together, the paper's K (paper: 4).");
+      "How many segments are estimated together, the paper's K (paper: 4).");
     d(OptionFor::kExperts, "deskewing", deskewing,
       Names<Deskewing>{{"estimated", Deskewing::kEstimated}, {"predicted", Deskewing::kPredicted}},
-      "What moves the points of a segment to one time: the estimated trajectory, anew in every "
-      "iteration, or the predicted motion, once (discrete poses and constant velocity as in "
+      "What moves the points of a segment to one time: the estimated trajectory, again in every "
+      "iteration, or once the predicted motion (discrete poses and constant velocity as in "
       "KISS-ICP, for comparison).");
   }
 };
@@ -46,8 +46,8 @@ struct OdometryOptions {
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kUsers, "threads", threads, Range<int>{0, 1024},
-      "0 takes all cores; no result depends on it. So many also decompress bz2 chunks of a "
-      "ROS 1 bag ahead; with 1 a single thread reads beside the estimator.");
+      "Number of threads; 0 takes all cores. The result does not depend on it. One more thread "
+      "reads the recording, and with N > 1 as many decompress bz2 chunks of a ROS 1 bag.");
   }
 };
 

@@ -34,14 +34,13 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
   if (gap.poses > 0) {
     warnings.push_back("nothing was measured for " + SecondsText(gap.seconds, all_s) + " in " +
                        std::to_string(gap.poses) + (gap.poses == 1 ? " stretch" : " stretches") +
-                       ": the motion there is not known, only where it ends (flag gap in "
-                       "flags.csv)");
+                       "; the motion in between is unknown (flag gap in flags.csv)");
   }
   const FlaggedPoses starved = total("no_points");
   if (starved.seconds > kWorthSaying * all_s) {
     warnings.push_back("for " + SecondsText(starved.seconds, all_s) +
-                       " hardly any point was on the map: there the motion is carried on (flag "
-                       "no_points)");
+                       " hardly any point lay on the map; the motion prior carries the poses there "
+                       "(flag no_points)");
   }
   const FlaggedPoses degenerate = total("degenerate");
   const auto& axes = summary.windows.weak_axes;
@@ -49,9 +48,8 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
     const auto weakest = std::max_element(
         axes.begin(), axes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     warnings.push_back("for " + SecondsText(degenerate.seconds, all_s) +
-                       " the points do not hold every direction, mostly not the " +
-                       Words(weakest->first) + ": the poses may be wrong by more than it seems " +
-                       "(flag degenerate)");
+                       " the points leave a direction open, mostly " + Words(weakest->first) +
+                       "; the poses may be off by more than it seems (flag degenerate)");
   }
   return warnings;
 }

@@ -28,7 +28,7 @@ void ResultFolder::Check(bool overwrite) const {
 void ResultFolder::Prepare() const {
   std::error_code error;
   fs::create_directories(path_, error);
-  if (error) throw OutputError(path_, "the folder cannot be made: " + error.message());
+  if (error) throw OutputError(path_, "the folder cannot be created: " + error.message());
   // Links are left alone: somebody wants the file elsewhere, and writing follows them.
   for (const fs::path& file :
        {summary(), trajectory(), map(), view(), windows(), flags(), covariance(), config()}) {

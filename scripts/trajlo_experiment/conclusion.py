@@ -124,4 +124,4 @@ def caution(findings):
     if seeds < 2:
         return ("Some scenarios have one seed only. Nothing tells how far results would scatter "
                 "with others, so no intervals are given, and small differences may be chance.")
-    return f"With {seeds} seeds a scenario the intervals are rough." if seeds < 5 else ""
+    return f"With {seeds} seeds per scenario the intervals are rough." if seeds < 5 else ""

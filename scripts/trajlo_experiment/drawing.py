@@ -3,10 +3,11 @@
 import math
 
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import NullLocator
 
 from trajlo_experiment.factors import LOG
 from trajlo_report import theme
+from trajlo_report.log_axis import plain_log
 
 MARKERS = "D*sP^v"  # of marked settings
 SHAPES = "os^vDP"   # of scenarios
@@ -57,27 +58,6 @@ def below(figure, handles):
     figure.get_layout_engine().set(rect=(0.0, share, 1.0, 1.0 - share))
     figure.legend(handles=handles, loc="lower center", ncol=columns, frameon=False,
                   borderaxespad=0.1, columnspacing=1.4, handletextpad=0.4)
-
-
-def log_ticks(low, high):
-    """Round numbers between two others, evenly enough on a logarithmic axis."""
-    decades = math.log10(high / low)
-    steps = ((1,) if decades > 3 else (1, 3) if decades > 1.5 else (1, 2, 5) if decades > 0.8
-             else (1, 1.5, 2, 3, 4, 5, 7))
-    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    ticks = [step * 10.0**power for power in powers for step in steps]
-    inside = [tick for tick in ticks if low <= tick <= high]
-    if len(inside) < 3:
-        inside = [tick for tick in MaxNLocator(4).tick_values(low, high) if low <= tick <= high]
-    return inside
-
-
-def plain_log(axis, low, high):
-    """Ticks of a logarithmic axis as people write numbers: 0.02, 0.05, 0.1, ..."""
-    ticks = log_ticks(low, high)
-    axis.set_major_locator(FixedLocator(ticks))
-    axis.set_major_formatter(FixedFormatter([f"{tick:.4g}" for tick in ticks]))
-    axis.set_minor_locator(NullLocator())
 
 
 def error_axis(axes, values):

@@ -9,10 +9,11 @@ from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 
 from trajlo_experiment import analysis
-from trajlo_experiment.drawing import below, mark_handles, mark_style, plain_log, soften
+from trajlo_experiment.drawing import below, mark_handles, mark_style, soften
 from trajlo_experiment.factors import LOG
 from trajlo_experiment.findings import level_text, place_among
 from trajlo_report import names, theme
+from trajlo_report.log_axis import plain_log
 
 ALL = "all scenarios"
 WORST = 10.0  # cells this many times worse than the best look alike

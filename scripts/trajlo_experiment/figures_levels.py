@@ -5,10 +5,11 @@ import math
 from matplotlib import pyplot as plt
 from matplotlib.patheffects import withStroke
 
-from trajlo_experiment.drawing import SHAPES, below, open_frame, plain_log
+from trajlo_experiment.drawing import SHAPES, below, open_frame
 from trajlo_experiment.figures_sensitivity import quartiles
 from trajlo_experiment.figures_tradeoff import COST, COST_LABEL
 from trajlo_report import names, theme
+from trajlo_report.log_axis import plain_log
 
 
 def draw_quartiles(axes, findings, bins, values_of):

@@ -101,12 +101,12 @@ def draw_parallel(findings):
         return None
     low, high = finite[0], min(finite[-1], 10 * finite[0])
     norm = LogNorm(low, max(high, 1.01 * low))
-    bound = finite[max(2, math.ceil(HIGHLIGHTED * len(finite)) - 1)]
+    best = max(3, math.ceil(HIGHLIGHTED * len(finite)))
     names = max((len(axis_ticks(findings, factor)) for factor in factors if not factor.numeric),
                 default=0)
     figure, axes = plt.subplots(figsize=(theme.PAGE_IN, max(2.5, 0.8 + 0.13 * names)),
                                 constrained_layout=True)
-    best_color = draw_lines(axes, findings, factors, points, norm, bound)
+    best_color = draw_lines(axes, findings, factors, points, norm, bound=finite[best - 1])
     draw_factor_axes(axes, findings, factors)
     last, fails = len(factors), len(finite) < len(points)
     draw_score_axis(axes, last, low, high, norm, fails)
@@ -117,7 +117,7 @@ def draw_parallel(findings):
     axes.grid(False)
     axes.spines[:].set_visible(False)
     handles = [Line2D([], [], color=best_color, lw=1.5,
-                      label=f"the best {100 * HIGHLIGHTED:.0f} % of the settings")]
+                      label=f"the best {best} of {len(finite)} settings")]
     if fails:
         handles.append(Line2D([], [], color=theme.END, ls=":", lw=1, label="fails on a recording"))
     below(figure, handles)

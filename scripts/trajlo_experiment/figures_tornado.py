@@ -6,9 +6,10 @@ from matplotlib import pyplot as plt
 from matplotlib.lines import Line2D
 
 from trajlo_experiment import analysis
-from trajlo_experiment.drawing import below, open_frame, plain_log
+from trajlo_experiment.drawing import below, open_frame
 from trajlo_experiment.experiment import CENTER
 from trajlo_report import theme
+from trajlo_report.log_axis import plain_log
 
 
 def swings(findings):

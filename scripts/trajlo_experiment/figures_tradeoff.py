@@ -6,10 +6,11 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from trajlo_experiment import analysis
-from trajlo_experiment.drawing import (below, error_axis, mark_handles, mark_style, open_frame,
-                                       plain_log)
+from trajlo_experiment.drawing import (below, error_axis, mark_handles, mark_style,
+                                       open_frame)
 from trajlo_experiment.figures_sensitivity import panels
 from trajlo_report import names, theme
+from trajlo_report.log_axis import plain_log
 
 COST, COST_LABEL = "cpu_ms_per_data_second", "processor time [ms per s of data]"
 

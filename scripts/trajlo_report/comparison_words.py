@@ -33,14 +33,15 @@ def factor(value):
 
 
 def agreement(items, distance_of, what):
-    """Which agree with the first, and how far the farthest is from it."""
+    """Which agree with the first, and how far the farthest is from it; `what`: many do, one does."""
     first, others = items[0]["name"], items[1:]
     if not others:
         return []
     same = [item["name"] for item in others if distance_of(item) <= SAME_M]
     far = max(others, key=distance_of)
-    count = "All" if len(same) == len(others) else f"{len(same)} of {len(others)}"
-    text = f"{count} {what} that of {first} to within a micrometre"
+    count = (f"{len(same)} of {len(others)}" if len(same) < len(others)
+             else "All" if len(same) > 1 else same[0])
+    text = f"{count} {what[len(same) == 1]} that of {first} to within a micrometre"
     if len(same) < len(others):
         text += f"; the farthest, {far['name']}, differs by {small_length(distance_of(far))}"
     return [text + "."]
@@ -65,11 +66,11 @@ def of_windows(lockstep):
         text += f" ({first['name']} takes {times} × as long)"
     said = [f"{text}; {slowest['name']} is slowest, {factor(most / least)} × as long.",
             *agreement(alike, lambda item: item["lockstep"]["max_from_first_m"],
-                       "find a solution that equals")]
+                       ("find a solution that equals", "finds a solution that equals"))]
     others = [item["name"] for item in lockstep if changes_energy(item)]
     if others:
-        said.append(f"{listed(others)} minimise something else, and are left out of these two "
-                    "sentences.")
+        said.append(f"{listed(others)} minimise another cost, so these two sentences leave "
+                    "them out.")
     return said
 
 
@@ -77,7 +78,7 @@ def of_runs(free):
     if len(free) < 2:
         return []
     said = agreement(free, lambda item: item["free"]["max_from_first_m"],
-                     "end with a trajectory that equals")
+                     ("end with a trajectory that equals", "ends with a trajectory that equals"))
     lost = [item["name"] for item in free if item["free"].get("lost_at_s")]
     if lost:
         said.append(f"{listed(lost)} got lost.")

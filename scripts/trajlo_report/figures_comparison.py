@@ -147,7 +147,7 @@ def draw_free(variants, width_in):
     grid[0].set(xlabel="processor time [s]")
     apart = [max(item["free"]["max_from_first_m"], SMALLEST_M) for item in variants]
     grid[1].plot(apart, place, "o", color=color, ms=4)
-    grid[1].set(xscale="log", xlabel=f"largest distance from {names[0]} [m]")
+    grid[1].set(xscale="log", xlabel=f"largest distance\nfrom {names[0]} [m]")
     if has_errors:
         grid[2].barh(place, [error or 0.0 for error in errors], color=color)
         grid[2].set(xlabel="position error, RMSE [m]")

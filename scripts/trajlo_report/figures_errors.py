@@ -6,6 +6,7 @@ import numpy as np
 from trajlo_report import theme
 from trajlo_report.evaluated import (AXES, drawable, has_rotation, legend_above,
                                      longest_truth, with_gaps)
+from trajlo_report.log_axis import plain_log
 
 
 def draw_over_time(estimates, width_in=theme.COLUMN_IN):
@@ -93,6 +94,7 @@ def draw_distribution(estimates, width_in=theme.COLUMN_IN):
         axes.step(error, 100 * np.arange(1, len(error) + 1) / len(error), where="post",
                   label=estimate.name, **theme.method_style(index))
     axes.set(xscale="log", ylim=(0, 100), xlabel="translation error [m]", ylabel="poses below [%]")
+    plain_log(axes.xaxis, *axes.get_xlim())
     legend_above(figure, axes)
     return figure
 

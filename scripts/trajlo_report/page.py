@@ -43,6 +43,15 @@ def number(value, digits=3):
     return f"{value:.{digits}f}"
 
 
+def setting(value):
+    """A value as one would write it in a configuration."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
 def flatten(tree, prefix=""):
     """Nested mappings and lists as rows (dotted key, value)."""
     rows = []
@@ -62,6 +71,6 @@ def render(template, **values):
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("trajlo_report"), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.ChainableUndefined)
-    environment.filters.update(number=number, data_uri=data_uri, compact_uri=compact_uri,
+    environment.filters.update(number=number, setting=setting, data_uri=data_uri, compact_uri=compact_uri,
                                title=names.title)
     return environment.get_template(template).render(theme=theme, **values)

@@ -21,7 +21,7 @@ TEST_F(TrajloRunTest, WrongUsageIsOne) {
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     return outcome.err;
   };
-  EXPECT_THAT(error({}), AllOf(HasSubstr("name a recording"), HasSubstr("--help")));
+  EXPECT_THAT(error({}), AllOf(HasSubstr("no recording given"), HasSubstr("--help")));
   EXPECT_THAT(error({"--input=x"}), HasSubstr("--output is missing"));
   EXPECT_THAT(error({"--input=x", "--output=y", "z"}), HasSubstr("unexpected argument 'z'"));
   EXPECT_THAT(error({"--imput=x"}), HasSubstr("imput"));

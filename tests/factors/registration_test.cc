@@ -5,40 +5,18 @@
 
 #include "factors/point_to_plane.h"
 #include "factors/segment_registration.h"
-#include "factors/segment_residuals.h"
 #include "tests/support/autodiff_twins.h"
 #include "tests/support/factor_testing.h"
-#include "tests/support/random_poses.h"
+#include "tests/support/random_segment.h"
 
 namespace trajlo {
 namespace {
 
 using testing::PointToPlaneTwin;
 using testing::Random;
+using testing::RandomPoint;
+using testing::RandomSegment;
 using testing::TangentJacobian;
-
-RegistrationPoint RandomPoint(Random* random, double alpha) {
-  RegistrationPoint point;
-  point.p_body_m = random->Uniform(1, 40) * random->Direction();
-  point.alpha = alpha;
-  point.normal_world = random->Direction();
-  point.weight = random->Uniform(0.1, 1.0);
-  return point;
-}
-
-/// A segment with points that lie about `spread_m` off their planes.
-std::vector<RegistrationPoint> RandomSegment(Random* random, const SE3& begin, const SE3& end,
-                                             int count, double spread_m) {
-  std::vector<RegistrationPoint> points;
-  for (int i = 0; i < count; ++i) {
-    const double alpha = i == 0 ? 0.0 : i == 1 ? 1.0 : random->Uniform(0, 1);
-    points.push_back(RandomPoint(random, alpha));
-    points.back().offset_m =
-        points.back().normal_world.dot(Interpolate(begin, end, alpha) * points.back().p_body_m) +
-        random->Gaussian(spread_m);
-  }
-  return points;
-}
 
 TEST(PointToPlane, ValueAndJacobiansAreThoseOfAutodiffAtDelicateAnglesAndTimes) {
   Random random;
@@ -183,36 +161,6 @@ TEST(SegmentRegistration, AScanAtOneInstantOnlyConstrainsThatPose) {
   const auto condensed = LinearizeSegment(points, begin, end, {0.1, {KernelKind::kNone, 1.0}});
   EXPECT_LT((condensed.H.topRows<6>().norm()), 1e-6);
   EXPECT_GT((condensed.H.bottomRightCorner<6, 6>().norm()), 1.0);
-}
-
-TEST(SegmentResiduals, PassesCeresGradientCheckerAndNullJacobianCalls) {
-  Random random(10);
-  const SE3 begin = random.Pose();
-  const SE3 end = Plus(begin, random.Tangent(0.2, 0.5));
-  const auto points = RandomSegment(&random, begin, end, 12, 0.2);
-  // Wide kernels: numeric derivatives take steps of metres.
-  for (KernelKind kind : {KernelKind::kNone, KernelKind::kCauchy, KernelKind::kGemanMcClure}) {
-    const SegmentResidualsCost factor(&points, {0.1, {kind, 100.0}});
-    testing::ExpectJacobiansMatchNumericOnes(factor, {begin, end}, 1e-5);
-    testing::ExpectNullJacobianFormsWork(factor, {begin, end});
-  }
-}
-
-TEST_P(SegmentRegistration, HasTheCostAndTheGradientOfSegmentResiduals) {
-  Random random(11);
-  const SE3 begin = random.Pose();
-  const SE3 end = Plus(begin, random.Tangent(0.1, 0.3));
-  const auto points = RandomSegment(&random, begin, end, 57, 0.2);
-  const RegistrationNoise noise{0.1, {GetParam(), 2.0}};
-  const SegmentResidualsCost factor(&points, noise);
-  Eigen::MatrixXd J(57, 12);
-  J << TangentJacobian(factor, {begin, end}, 0), TangentJacobian(factor, {begin, end}, 1);
-  Eigen::VectorXd r(57);
-  const double* blocks[2] = {begin.data(), end.data()};
-  factor.Evaluate(blocks, r.data(), nullptr);
-  const auto condensed = LinearizeSegment(points, begin, end, noise);
-  EXPECT_NEAR(0.5 * r.squaredNorm(), condensed.cost, 1e-9 * (1.0 + condensed.cost));
-  EXPECT_LT((J.transpose() * r - condensed.g).norm(), 1e-9 * (1.0 + condensed.g.norm()));
 }
 
 TEST(RobustKernel, IsTheLossOfCeresWhereCeresHasOne) {

@@ -10,8 +10,8 @@ from evaluation_folder import write_evaluation
 from result_folder import BEGIN_S, on_walls, write_ply, write_result
 from support import SCRIPTS, FolderTest
 
-from trajlo_report import (evaluated, figures_errors, figures_evaluation, files, names, page,
-                           run_summary, theme, view)
+from trajlo_report import (evaluated, evaluation_words, figures_errors, figures_evaluation, files,
+                           names, page, run_summary, theme, view)
 
 
 class EvaluationPageTest(FolderTest):
@@ -29,6 +29,17 @@ class EvaluationPageTest(FolderTest):
         self.assertEqual(names, {f"{name}.{kind}" for name in drawn for kind in theme.FORMATS})
         self.assert_self_contained(report)
         self.assertEqual(report.read_text().count("data:image/svg+xml"), len(names) / 3)
+
+    def test_the_conclusion_is_a_sentence_for_each_the_best_first(self):
+        write_evaluation(self.folder, {"worse": 0.1, "better": 0.01, "lost": 0.1},
+                         diverged=("lost",))
+        _, estimates = files.read_evaluation(self.folder)
+        estimates[0].metrics["ate"]["translation_m"].update(rmse=0.25, max=1.5)
+        said = evaluation_words.conclusions(estimates)
+        self.assertRegex(said[0], r"better is .* cm from the truth .* over a path of \d+")
+        self.assertIn("worse is 25.0 cm from the truth (root mean square after alignment; at most "
+                      "1.5 m)", said[1])
+        self.assertEqual(said[2], "lost diverged.")
 
     def test_a_diverged_estimate_is_said_to_be_one_and_does_not_shrink_the_others(self):
         write_evaluation(self.folder, {"good": 0.01, "lost": 0.1}, diverged=("lost",))

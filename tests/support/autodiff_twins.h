@@ -3,8 +3,8 @@
 
 #include <ceres/jet.h>
 
-#include "factors/autodiff_pose.h"
-#include "factors/point_to_plane_autodiff.h"
+#include "core/comparison/forms/autodiff_pose.h"
+#include "core/comparison/forms/point_to_plane_autodiff.h"
 #include "manifolds/se3.h"
 
 /// Templated twins of the factors for ceres::AutoDiffCostFunction, sharing nothing with the code

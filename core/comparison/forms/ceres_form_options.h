@@ -54,7 +54,7 @@ struct CeresFormOptions {
       "How Ceres bounds its steps.");
     d(OptionFor::kExperts, "initial_trust_region_radius", initial_trust_region_radius,
       Range<double>{1e-10, 1e16},
-      "The largest makes the first step a Gauss-Newton step to the last bits.");
+      "At its largest, the first step is a Gauss-Newton step to the last bits.");
   }
 };
 

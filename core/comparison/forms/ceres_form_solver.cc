@@ -7,11 +7,11 @@
 
 #include <algorithm>
 
+#include "core/comparison/forms/point_to_plane_autodiff.h"
+#include "core/comparison/forms/segment_residuals.h"
 #include "core/odometry/solvers/ceres_steps.h"
 #include "core/odometry/solvers/prepare_registration.h"
 #include "factors/point_to_plane.h"
-#include "factors/point_to_plane_autodiff.h"
-#include "factors/segment_residuals.h"
 #include "manifolds/se3_manifold.h"
 
 namespace trajlo {

@@ -54,8 +54,8 @@ struct RecordingOptions {
       "Topics of a bag to read, one per LiDAR; empty takes the only one with point clouds.");
     d(OptionFor::kUsers, "point_time", use_point_times,
       Names<bool>{{"auto", true}, {"none", false}},
-      "none: ignore per-point times, as motion-corrected scans need it; every point then gets "
-      "its scan's stamp.");
+      "none ignores the times of points, for motion-corrected scans; every point then gets its "
+      "scan's stamp.");
     d(OptionFor::kUsers, "time_field", time_field,
       "Name of the field with the points' times; empty takes the first with a known name.");
     d(OptionFor::kUsers, "time_unit", time_unit,
@@ -64,7 +64,7 @@ struct RecordingOptions {
                       {"ms", TimeUnit::kMilliseconds},
                       {"us", TimeUnit::kMicroseconds},
                       {"ns", TimeUnit::kNanoseconds}},
-      "Unit of the points' times; auto decides by the evidence of the first scans.");
+      "Unit of the points' times; auto decides by the first scans.");
     d(OptionFor::kUsers, "time_origin", time_origin,
       Names<TimeOrigin>{{"auto", TimeOrigin::kAuto},
                         {"start", TimeOrigin::kSweepStart},
@@ -83,12 +83,12 @@ struct RecordingOptions {
     d(OptionFor::kUsers, "scan_period_s", scan_period_s, Range<double>{1e-3, 100.0},
       "Time between scans when nothing else gives stamps.");
     d(OptionFor::kUsers, "velodyne_model", velodyne_model, VelodyneModelNames(),
-      "Of Velodynes in a capture whose packets do not name it (old firmware); auto refuses "
-      "these. VLP-16 is also the Puck LITE.");
+      "Model of a Velodyne whose packets do not name it (old firmware); auto refuses such a "
+      "capture. VLP-16 also means the Puck LITE.");
     d(OptionFor::kUsers, "start_s", start_s, Range<double>{0.0, 1e9},
-      "Scans before this much time since the first are skipped.");
+      "How much to skip at the start.");
     d(OptionFor::kUsers, "duration_s", duration_s, Range<double>{0.0, 1e9},
-      "The length of what is read; 0 reads to the end.");
+      "How much to read; 0 reads to the end.");
   }
 };
 

@@ -5,22 +5,29 @@
 #include "core/odometry/health/starvation.h"
 
 namespace trajlo {
+namespace {
 
-bool IsBelievable(const WindowStatistics& statistics, const Window& window,
-                  const LostOptions& options) {
+/// What no carrier of a LiDAR does.
+constexpr double kMaxCorrection_m = 3.0;
+constexpr double kMaxCorrection_rad = 1.0;
+constexpr double kMaxSpeed_m_s = 100.0;
+constexpr double kMaxTurnRate_rad_s = 60.0;
+
+}  // namespace
+
+bool IsBelievable(const WindowStatistics& statistics, const Window& window) {
   for (int k = 0; k < window.size(); ++k) {
     const double duration_s = window.segments[static_cast<std::size_t>(k)].Duration_s();
-    if (!IsWithinReach(window.Pose(k), window.Pose(k + 1), duration_s, options)) return false;
+    if (!IsWithinReach(window.Pose(k), window.Pose(k + 1), duration_s)) return false;
   }
-  return statistics.is_finite && statistics.correction_m <= options.max_correction_m &&
-         statistics.correction_rad <= options.max_correction_rad;
+  return statistics.is_finite && statistics.correction_m <= kMaxCorrection_m &&
+         statistics.correction_rad <= kMaxCorrection_rad;
 }
 
-bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s,
-                   const LostOptions& options) {
+bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s) {
   const SE3 between = T_world_begin.Inverse() * T_world_end;
-  return between.t.norm() <= options.max_speed_m_s * duration_s &&
-         so3::Log(between.q).norm() <= options.max_turn_rate_rad_s * duration_s;
+  return between.t.norm() <= kMaxSpeed_m_s * duration_s &&
+         so3::Log(between.q).norm() <= kMaxTurnRate_rad_s * duration_s;
 }
 
 void Revert(const std::vector<SE3>& poses, Window* window) {

@@ -6,14 +6,12 @@
 
 namespace trajlo {
 
-/// Whether the solution is finite, the newest pose no farther from its prediction than a sensor can
-/// have moved, and none farther from its neighbours.
-bool IsBelievable(const WindowStatistics& statistics, const Window& window,
-                  const LostOptions& options);
+/// Whether the solution is finite, the newest pose no farther from its prediction than 3 m and
+/// 1 rad, and no pose farther from its neighbours than 100 m/s and 60 rad/s get it.
+bool IsBelievable(const WindowStatistics& statistics, const Window& window);
 
-/// Whether a body can get from one pose to another in `duration_s`.
-bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s,
-                   const LostOptions& options);
+/// Whether that speed and turn rate get a body from one pose to another in `duration_s`.
+bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s);
 
 /// Puts the poses back to `poses`. The planes belong to poses that are not believed: the
 /// registration is forgotten.

@@ -13,10 +13,6 @@ namespace trajlo {
 struct LostOptions {
   double min_inlier_share = 0.05;
   double max_duration_s = 1.0;
-  double max_correction_m = 3.0;
-  double max_correction_rad = 1.0;
-  double max_speed_m_s = 100.0;
-  double max_turn_rate_rad_s = 60.0;
   /// After a pause, or when a covered LiDAR sees again, the place is sought in the map. When so
   /// much data has come and it is not found, the estimator is lost.
   static constexpr double kMaxSearch_s = 5.0;
@@ -29,14 +25,6 @@ struct LostOptions {
       "max_duration_s.");
     d(OptionFor::kExperts, "max_duration_s", max_duration_s, Range<double>{0.0, 1e6},
       "See min_inlier_share.");
-    d(OptionFor::kExperts, "max_correction_m", max_correction_m, Range<double>{1e-3, 1e3},
-      "A solve that moves the newest pose farther than this from its prediction is not believed.");
-    d(OptionFor::kExperts, "max_correction_rad", max_correction_rad, Range<double>{1e-3, 10.0},
-      "The same for its rotation.");
-    d(OptionFor::kExperts, "max_speed_m_s", max_speed_m_s, Range<double>{0.1, 1e4},
-      "No pose is farther from its neighbours than a body of this speed gets.");
-    d(OptionFor::kExperts, "max_turn_rate_rad_s", max_turn_rate_rad_s, Range<double>{0.1, 1e4},
-      "The same for its rotation.");
     d(OptionFor::kExperts, "degenerate_sigma_m", degenerate_sigma_m, Range<double>{1e-4, 1e3},
       "A direction in which the points of a window hold it to a larger standard deviation counts "
       "as degenerate (a well-spread scene has 0.01).");

@@ -30,7 +30,7 @@ bool IsStarved(const Window& window, const Segment& segment) {
   int on_plane = 0;
   for (const RegistrationPoint& point : segment.points) {
     const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
-    on_plane += std::abs(point.normal_world.dot(p_world) - point.offset_m) < kOnPlane_m ? 1 : 0;
+    on_plane += std::abs(point.DistanceToPlane(p_world)) < kOnPlane_m ? 1 : 0;
     if (on_plane >= needed) return false;
   }
   return true;

@@ -25,7 +25,7 @@ struct MapOptions {
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "kind", kind,
       Names<MapKind>{{"voxel_hash", MapKind::kVoxelHash}, {"kd_tree", MapKind::kKdTree}},
-      "voxel_hash is fast; kd_tree finds the exact neighbours.");
+      "voxel_hash is fast, kd_tree finds the exact neighbours.");
     d(OptionFor::kUsers, "voxel_size_m", voxel_size_m, Range<double>{1e-2, 20.0},
       "Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).");
     d(OptionFor::kExperts, "min_point_spacing_m", min_point_spacing_m, Range<double>{0.0, 10.0},
@@ -34,8 +34,8 @@ struct MapOptions {
     d(OptionFor::kUsers, "radius_m", radius_m, Range<double>{1.0, 1e4},
       "Voxels farther than this from the sensor are dropped.");
     d(OptionFor::kExperts, "shared_planes", shared_planes,
-      "One plane for each eighth of a voxel, kept until the points around it have become more; "
-      "false fits one for every point, as the paper does.");
+      "One plane for each eighth of a voxel, kept until there are more points around it; false "
+      "fits one for every point, as the paper does.");
   }
 };
 

@@ -6,34 +6,44 @@
 #include <cmath>
 
 namespace trajlo {
+namespace {
+
+/// Of the neighbours, about the nearest one: no cancellation.
+struct Moments {
+  Eigen::Vector3d mean;
+  Eigen::Matrix3d covariance;
+
+  explicit Moments(const Neighbors& neighbors) {
+    double sx = 0, sy = 0, sz = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    const double ox = neighbors.x[0], oy = neighbors.y[0], oz = neighbors.z[0];
+    for (int i = 1; i < neighbors.count; ++i) {
+      const double x = neighbors.x[i] - ox, y = neighbors.y[i] - oy, z = neighbors.z[i] - oz;
+      sx += x;
+      sy += y;
+      sz += z;
+      xx += x * x;
+      xy += x * y;
+      xz += x * z;
+      yy += y * y;
+      yz += y * z;
+      zz += z * z;
+    }
+    const double inverse = 1.0 / neighbors.count;
+    mean = {sx * inverse, sy * inverse, sz * inverse};
+    covariance << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    covariance = covariance * inverse - mean * mean.transpose();
+  }
+};
+
+}  // namespace
 
 FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_world,
                      const PlaneFitOptions& options, double spacing_m) {
   const int n = neighbors.count;
   if (n < PlaneFitOptions::kMinNeighbors) return {};
-  double sx = 0, sy = 0, sz = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  // Moments about the nearest neighbour: no cancellation.
-  const double ox = neighbors.x[0], oy = neighbors.y[0], oz = neighbors.z[0];
-  for (int i = 1; i < n; ++i) {
-    const double x = neighbors.x[i] - ox, y = neighbors.y[i] - oy, z = neighbors.z[i] - oz;
-    sx += x;
-    sy += y;
-    sz += z;
-    xx += x * x;
-    xy += x * y;
-    xz += x * z;
-    yy += y * y;
-    yz += y * z;
-    zz += z * z;
-  }
-  const double inverse = 1.0 / n;
-  const Eigen::Vector3d mean(sx * inverse, sy * inverse, sz * inverse);
-  Eigen::Matrix3d covariance;
-  covariance << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  covariance = covariance * inverse - mean * mean.transpose();
-
+  const Moments moments(neighbors);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(covariance);
+  eigen.computeDirect(moments.covariance);
   const double thickness_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
   const double width_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
   if (width_m < options.min_width_in_spacings * spacing_m ||
@@ -43,7 +53,8 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   }
   const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
   const Eigen::Vector3d from_center =
-      neighbors.origin_world - center_world + Eigen::Vector3d(ox, oy, oz) + mean;
+      neighbors.origin_world - center_world +
+      Eigen::Vector3d(neighbors.x[0], neighbors.y[0], neighbors.z[0]) + moments.mean;
   FittedPlane plane;
   plane.normal_world = normal.cast<float>();
   plane.offset_m = static_cast<float>(normal.dot(from_center));

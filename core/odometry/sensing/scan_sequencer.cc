@@ -23,6 +23,19 @@ std::string Seconds(std::int64_t ns) {
   return text;
 }
 
+bool IsDropped(ScanFate fate) {
+  return fate == ScanFate::kMisfit || fate == ScanFate::kRepeated || fate == ScanFate::kApart;
+}
+
+void Count(ScanFate fate, TimeReport* report) {
+  report->reordered += fate == ScanFate::kReordered ? 1 : 0;
+  report->retimed += fate == ScanFate::kRetimed ? 1 : 0;
+  report->assumed += fate == ScanFate::kAssumed ? 1 : 0;
+  report->misfits += fate == ScanFate::kMisfit ? 1 : 0;
+  report->repeated += fate == ScanFate::kRepeated ? 1 : 0;
+  report->apart += fate == ScanFate::kApart ? 1 : 0;
+}
+
 std::string LidarName(std::size_t lidar) { return "lidar " + std::to_string(lidar); }
 
 }  // namespace
@@ -99,32 +112,8 @@ void ScanSequencer::Apply(const Judgement& judgement) {
   const auto entry = std::find_if(queue_.begin(), queue_.end(), [&](const auto& other) {
     return &other->held == judgement.held;
   });
-  switch (judgement.fate) {
-    case ScanFate::kHandedOn:
-      break;
-    case ScanFate::kReordered:
-      ++report_.reordered;
-      break;
-    case ScanFate::kRetimed:
-      ++report_.retimed;
-      break;
-    case ScanFate::kAssumed:
-      ++report_.assumed;
-      break;
-    case ScanFate::kMisfit:
-      ++report_.misfits;
-      break;
-    case ScanFate::kRepeated:
-      ++report_.repeated;
-      break;
-    case ScanFate::kApart:
-      ++report_.apart;
-      break;
-  }
-  const bool is_dropped = judgement.fate == ScanFate::kMisfit ||
-                          judgement.fate == ScanFate::kRepeated ||
-                          judgement.fate == ScanFate::kApart;
-  if (is_dropped) {
+  Count(judgement.fate, &report_);
+  if (IsDropped(judgement.fate)) {
     report_.points += static_cast<std::int64_t>(judgement.held->scan.points.size());
     queue_.erase(entry);
     return;

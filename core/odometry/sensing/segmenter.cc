@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/odometry/sensing/choose_evenly.h"
 #include "core/odometry/sensing/turn_up.h"
 
 namespace trajlo {
@@ -20,25 +21,18 @@ std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
 
 std::int64_t DurationNs(double seconds) { return std::max(ToNs(seconds), kShortest_ns); }
 
-/// Keeps `count` points at even distances in the order of the list.
-void ThinEvenly(std::size_t count, std::vector<SegmentPoint>* points) {
-  if (count == 0 || points->size() <= count) return;
-  for (std::size_t i = 0; i < count; ++i) (*points)[i] = (*points)[i * points->size() / count];
-  points->resize(count);
-}
-
 }  // namespace
 
-Segmenter::Segmenter(const SegmenterOptions& options, int divisions)
+Segmenter::Segmenter(const SegmenterOptions& options)
     : options_(options),
-      slot_ns_(DurationNs(options.interval_s / divisions)),
+      interval_ns_(DurationNs(options.interval_s)),
       max_gap_ns_(DurationNs(options.max_gap_s)),
       max_lag_ns_(ToNs(options.max_lag_s)),
       map_filter_(options.map_voxel_m),
       registration_filter_(options.registration_voxel_m),
       complete_until_ns_(kUnseen),
       newest_ns_(std::max<std::size_t>(options.T_body_lidar.size(), 1), kUnseen),
-      discrete_step_ns_(slot_ns_) {}
+      discrete_step_ns_(interval_ns_) {}
 
 void Segmenter::AddScan(const LidarScan& scan) {
   counts_.received += static_cast<std::int64_t>(scan.points.size());
@@ -79,13 +73,13 @@ bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::
   return true;
 }
 
-void Segmenter::OpenNext(std::int64_t end_ns, bool is_whole, bool is_gap) {
-  slots_.push_back({*end_ns_, end_ns, is_whole, is_gap, {}});
+void Segmenter::OpenNext(std::int64_t end_ns, bool is_gap) {
+  slots_.push_back({*end_ns_, end_ns, is_gap, {}});
   end_ns_ = end_ns;
 }
 
 Segmenter::Slot& Segmenter::SlotAt(std::int64_t t_ns) {
-  while (t_ns >= *end_ns_) OpenNext(*end_ns_ + slot_ns_, false);
+  while (t_ns >= *end_ns_) OpenNext(*end_ns_ + interval_ns_);
   std::size_t i = slots_.size() - 1;
   while (t_ns < slots_[i].begin_ns) --i;
   return slots_[i];
@@ -107,10 +101,10 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
 
   if (!end_ns_) {
     end_ns_ = first_ns;
-    OpenNext(first_ns + DurationNs(options_.first_interval_s), true);
+    OpenNext(first_ns + DurationNs(options_.first_interval_s));
   }
   if (first_ns > *end_ns_ + max_gap_ns_) {
-    OpenNext(first_ns, true, true);
+    OpenNext(first_ns, true);
     CompleteUntil(first_ns);
   }
 
@@ -136,15 +130,15 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
 Segmenter::Slot* Segmenter::DiscreteSlotAt(std::int64_t stamp_ns) {
   if (!end_ns_) {
     end_ns_ = stamp_ns;
-    OpenNext(stamp_ns, true);
+    OpenNext(stamp_ns);
   } else if (stamp_ns >= *end_ns_ + kShortest_ns) {
     const std::int64_t step_ns = stamp_ns - *end_ns_;
     if (step_ns > std::max(max_gap_ns_, 2 * kShortest_ns)) {
-      OpenNext(stamp_ns - std::min(discrete_step_ns_, step_ns / 2), true, true);
+      OpenNext(stamp_ns - std::min(discrete_step_ns_, step_ns / 2), true);
     } else {
       discrete_step_ns_ = step_ns;
     }
-    OpenNext(stamp_ns, true);
+    OpenNext(stamp_ns);
   }
   for (std::size_t i = slots_.size(); i-- > 0;) {
     Slot& slot = slots_[i];
@@ -153,7 +147,7 @@ Segmenter::Slot* Segmenter::DiscreteSlotAt(std::int64_t stamp_ns) {
     if (stamp_ns < slot.begin_ns + kShortest_ns) continue;
     // Of another LiDAR, between two scans that came before.
     const auto before = slots_.insert(slots_.begin() + static_cast<std::ptrdiff_t>(i),
-                                      {slot.begin_ns, stamp_ns, true, false, {}});
+                                      {slot.begin_ns, stamp_ns, false, {}});
     slots_[i + 1].begin_ns = stamp_ns;
     return &*before;
   }
@@ -198,50 +192,29 @@ void Segmenter::CompleteUntil(std::int64_t t_ns) {
 
 void Segmenter::Finish() { CompleteUntil(kForever); }
 
-std::optional<SegmentCloud> Segmenter::Next(int slots) {
-  std::size_t wanted = static_cast<std::size_t>(slots);
-  for (std::size_t i = 0; i < std::min(wanted, slots_.size()); ++i) {
-    if (slots_[i].is_whole) wanted = std::max<std::size_t>(i, 1);
-  }
-  if (complete_until_ns_ == kForever) wanted = std::min(wanted, slots_.size());
-  if (wanted == 0 || slots_.size() < wanted || slots_[wanted - 1].end_ns > complete_until_ns_) {
-    return std::nullopt;
-  }
+std::optional<SegmentCloud> Segmenter::Next() {
+  if (slots_.empty() || slots_.front().end_ns > complete_until_ns_) return std::nullopt;
+  Slot slot = std::move(slots_.front());
+  slots_.pop_front();
   SegmentCloud cloud;
-  cloud.begin_ns = slots_.front().begin_ns;
-  cloud.end_ns = slots_[wanted - 1].end_ns;
-  cloud.is_gap = slots_.front().is_gap;
+  cloud.begin_ns = slot.begin_ns;
+  cloud.end_ns = slot.end_ns;
+  cloud.is_gap = slot.is_gap;
   for (std::size_t lidar = 0; lidar < newest_ns_.size(); ++lidar) {
     cloud.lidar_origins_body_m.push_back(PoseOf(lidar).t);
   }
-  Thin(TakePoints(wanted), &cloud);
+  Thin(std::move(slot.points), &cloud);
   return cloud;
-}
-
-/// The points of the first `slots` slots, which are removed, with alpha over all of them.
-std::vector<SegmentPoint> Segmenter::TakePoints(std::size_t slots) {
-  std::vector<SegmentPoint> points = std::move(slots_.front().points);
-  if (slots > 1) {
-    const double slots_inverse = 1.0 / static_cast<double>(slots);
-    for (SegmentPoint& point : points) point.alpha *= static_cast<float>(slots_inverse);
-    for (std::size_t i = 1; i < slots; ++i) {
-      for (SegmentPoint point : slots_[i].points) {
-        point.alpha = static_cast<float>(
-            (static_cast<double>(i) + static_cast<double>(point.alpha)) * slots_inverse);
-        points.push_back(point);
-      }
-    }
-  }
-  slots_.erase(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(slots));
-  return points;
 }
 
 void Segmenter::Thin(std::vector<SegmentPoint> points, SegmentCloud* cloud) {
   if (first_taken_) {
     map_filter_.Filter(points, &cloud->map_points);
     registration_filter_.Filter(cloud->map_points, &cloud->registration_points);
-    ThinEvenly(static_cast<std::size_t>(options_.max_registration_points),
-               &cloud->registration_points);
+    if (options_.max_registration_points > 0) {
+      cloud->registration_points = ChooseEvenly(
+          cloud->registration_points, static_cast<std::size_t>(options_.max_registration_points));
+    }
     return;
   }
   // The start of motion is found by comparing the two halves of the first segment: each must keep

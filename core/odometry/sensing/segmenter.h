@@ -29,8 +29,7 @@ struct SegmenterOptions {
   template <typename Describer>
   void DescribeSensor(Describer& d) {
     d(OptionFor::kUsers, "T_body_lidar", T_body_lidar,
-      "Pose of each LiDAR in the body frame; one LiDAR alone may go without, and is the body "
-      "then.");
+      "Pose of each LiDAR in the body frame. A single LiDAR needs none: it is the body then.");
     d(OptionFor::kUsers, "min_range_m", min_range_m, Range<double>{0.0, 1e3},
       "Nearer points are dropped.");
     d(OptionFor::kUsers, "max_range_m", max_range_m, Range<double>{0.1, 1e4},
@@ -45,18 +44,17 @@ struct SegmenterOptions {
     d(OptionFor::kExperts, "first_interval_s", first_interval_s, Range<double>{1e-3, 10.0},
       "Length of the first segment, which fills the map (paper: 0.3 s).");
     d(OptionFor::kUsers, "interval_s", interval_s, Range<double>{1e-3, 10.0},
-      "Length of all other segments, the paper's Delta t.");
+      "Length of a segment, the paper's Delta t.");
     d(OptionFor::kExperts, "map_voxel_m", map_voxel_m, Range<double>{1e-3, 10.0},
-      "At most one point per cell of this size and segment enters the map.");
+      "At most one point of a segment enters the map per cell of this size.");
     d(OptionFor::kExperts, "registration_voxel_m", registration_voxel_m, Range<double>{1e-3, 20.0},
-      "At most one of those per cell of this size is registered.");
+      "Of these, at most one is registered per cell of this size.");
     d(OptionFor::kUsers, "max_registration_points", max_registration_points, Range<int>{0, 1000000},
-      "At most this many are registered of a segment, taken evenly over its points; 0 takes "
-      "all.");
+      "At most this many points of a segment are registered, taken evenly; 0 takes all.");
     d(OptionFor::kExperts, "max_gap_s", max_gap_s, Range<double>{1e-3, 1e3},
       "A longer pause becomes one gap segment; shorter ones become empty segments.");
     d(OptionFor::kExperts, "max_lag_s", max_lag_s, Range<double>{0.0, 1e3},
-      "A LiDAR that lags behind the others by more is not waited for.");
+      "A LiDAR that lags farther behind the others is not waited for.");
   }
 };
 
@@ -70,30 +68,24 @@ struct SegmenterOptions {
 /// other segment lasts a millisecond at least: scans that are closer share one.
 ///
 /// Times must be sane, as ScanSequencer makes them.
-///
-/// The stream is cut into slots of `interval_s / divisions`; how many of them make a segment is
-/// said when the segment is asked for, so that it can depend on all segments before it, and on
-/// nothing else.
 class Segmenter {
  public:
-  explicit Segmenter(const SegmenterOptions& options, int divisions = 1);
+  explicit Segmenter(const SegmenterOptions& options);
 
   void AddScan(const LidarScan& scan);
   /// No further scans: the segments still open are completed, the last one as far as it is filled.
   void Finish();
-  /// The next segment of `slots` slots, oldest first; empty until all of them are complete. It ends
-  /// early only before a gap and at the end of the stream. The first segment, a gap, and a scan
-  /// without point times are one slot each.
-  std::optional<SegmentCloud> Next(int slots = 1);
+  /// The next segment, oldest first; empty until it is complete.
+  std::optional<SegmentCloud> Next();
 
   const PointCounts& counts() const { return counts_; }
 
  private:
+  /// A segment that is being filled.
   struct Slot {
     std::int64_t begin_ns, end_ns;
-    bool is_whole;  ///< A segment by itself.
     bool is_gap;
-    std::vector<SegmentPoint> points;  ///< With alpha within the slot.
+    std::vector<SegmentPoint> points;
   };
   void AddContinuous(const LidarScan& scan);
   void AddDiscrete(const LidarScan& scan);
@@ -102,14 +94,13 @@ class Segmenter {
   Slot& SlotAt(std::int64_t t_ns);
   Slot* DiscreteSlotAt(std::int64_t stamp_ns);
   void CompletePassed();
-  void OpenNext(std::int64_t end_ns, bool is_whole, bool is_gap = false);
+  void OpenNext(std::int64_t end_ns, bool is_gap = false);
   void CompleteUntil(std::int64_t t_ns);
   std::int64_t FirstOpen_ns() const;
-  std::vector<SegmentPoint> TakePoints(std::size_t slots);
   void Thin(std::vector<SegmentPoint> points, SegmentCloud* cloud);
 
   SegmenterOptions options_;
-  std::int64_t slot_ns_, max_gap_ns_, max_lag_ns_;
+  std::int64_t interval_ns_, max_gap_ns_, max_lag_ns_;
   PointCounts counts_;
   VoxelFilter map_filter_;
   VoxelFilter registration_filter_;

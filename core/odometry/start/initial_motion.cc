@@ -71,9 +71,8 @@ class Hypothesis {
     const SegmentMotion motion(SE3(), T_end_);
     for (const RegistrationPoint& point : points_with_plane_) {
       if (direction && std::abs(point.normal_world.dot(*direction)) < kFacing) continue;
-      const double distance_m =
-          point.normal_world.dot(motion.ToWorld(point.alpha, point.p_body_m)) - point.offset_m;
-      agreeing += std::abs(distance_m) < kAgreementM ? 1 : 0;
+      const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
+      agreeing += std::abs(point.DistanceToPlane(p_world)) < kAgreementM ? 1 : 0;
     }
     return agreeing / points_;
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/odometry/sensing/choose_evenly.h"
+
 namespace trajlo {
 namespace {
 
@@ -47,9 +49,7 @@ class Occupancy {
     }
     low_.array() -= 1 << kTopLevel;
     size_ = high - low_ + Cell::Ones();
-    bits_.assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()) *
-                     static_cast<std::size_t>(size_.z()),
-                 0);
+    bits_.assign(Index(size_ - Cell::Ones()) + 1, 0);
     for (const Cell& cell : occupied) bits_[Index(cell - low_)] = 1U << kOccupied;
     // From [i, i] to [i, i + 1], and on to [i, i + 2^L].
     Spread(kOccupied, 0, 1);
@@ -60,22 +60,16 @@ class Occupancy {
 
   bool Has(const Cell& cell, int level) const {
     const Cell at = cell - low_;
-    if (static_cast<unsigned>(at.x()) >= static_cast<unsigned>(size_.x()) ||
-        static_cast<unsigned>(at.y()) >= static_cast<unsigned>(size_.y()) ||
-        static_cast<unsigned>(at.z()) >= static_cast<unsigned>(size_.z())) {
-      return false;
-    }
-    return (bits_[Index(at)] >> level & 1U) != 0;
+    const bool is_within = (at.array() >= 0).all() && (at.array() < size_.array()).all();
+    return is_within && (bits_[Index(at)] >> level & 1U) != 0;
   }
 
  private:
   static constexpr int kOccupied = 7;
 
   std::size_t Index(const Cell& at) const {
-    return (static_cast<std::size_t>(at.z()) * static_cast<std::size_t>(size_.y()) +
-            static_cast<std::size_t>(at.y())) *
-               static_cast<std::size_t>(size_.x()) +
-           static_cast<std::size_t>(at.x());
+    return static_cast<std::size_t>(at.x() + std::int64_t{size_.x()} *
+                                                 (at.y() + std::int64_t{size_.y()} * at.z()));
   }
 
   /// Bit `to` of a cell becomes bit `from` of it or of any that is `step` farther along some axes.
@@ -83,26 +77,18 @@ class Occupancy {
     for (std::uint8_t& bits : bits_) {
       bits = static_cast<std::uint8_t>(bits | (bits >> from & 1U) << to);
     }
+    const auto mask = static_cast<std::uint8_t>(1U << to);
     std::size_t stride = 1;
     for (int axis = 0; axis < 3; ++axis) {
-      SpreadAlong(axis, stride * static_cast<std::size_t>(step), to, step);
-      stride *= static_cast<std::size_t>(size_[axis]);
-    }
-  }
-
-  void SpreadAlong(int axis, std::size_t ahead, int bit, int step) {
-    const auto mask = static_cast<std::uint8_t>(1U << bit);
-    std::size_t i = 0;
-    for (int z = 0; z < size_.z(); ++z) {
-      for (int y = 0; y < size_.y(); ++y) {
-        for (int x = 0; x < size_.x(); ++x, ++i) {
-          const int along = axis == 0 ? x : axis == 1 ? y : z;
-          // Cells ahead have not been changed yet.
-          if (along + step < size_[axis]) {
-            bits_[i] = static_cast<std::uint8_t>(bits_[i] | (bits_[i + ahead] & mask));
-          }
+      const std::size_t ahead = stride * static_cast<std::size_t>(step);
+      const std::size_t row = stride * static_cast<std::size_t>(size_[axis]);
+      for (std::size_t begin = 0; begin < bits_.size(); begin += row) {
+        // Cells ahead have not been changed yet.
+        for (std::size_t i = begin; i + ahead < begin + row; ++i) {
+          bits_[i] = static_cast<std::uint8_t>(bits_[i] | (bits_[i + ahead] & mask));
         }
       }
+      stride = row;
     }
   }
 
@@ -115,8 +101,8 @@ class Occupancy {
 /// Positions corner .. corner + 2^level cells, with one attitude.
 struct Block {
   Cell corner;
-  int turned;  ///< Which of the turned sweeps.
-  int hits;    ///< Of the points, at most.
+  std::size_t turned;  ///< Which of the turned sweeps.
+  int hits;            ///< Of the points, at most.
 };
 
 /// The sweep in one attitude: the cells of its points as seen from a position at a cell's corner.
@@ -139,12 +125,7 @@ std::vector<Eigen::Vector3d> ChoosePoints(const std::vector<Eigen::Vector3d>& sw
   for (const Eigen::Vector3d& p : sweep) {
     if (p.norm() <= max_range_m) near.push_back(p);
   }
-  if (near.size() <= kMaxSweepPoints) return near;
-  std::vector<Eigen::Vector3d> chosen;
-  for (std::size_t i = 0; i < kMaxSweepPoints; ++i) {
-    chosen.push_back(near[i * near.size() / kMaxSweepPoints]);
-  }
-  return chosen;
+  return ChooseEvenly(near, kMaxSweepPoints);
 }
 
 class PlaceSearch {
@@ -201,7 +182,7 @@ class PlaceSearch {
           const double distance_m = Cell(x, y, z).cast<double>().norm() * width * cell_m_;
           if (distance_m > region_.radius_m + 0.87 * width * cell_m_) continue;
           for (std::size_t turned = 0; turned < turned_.size(); ++turned) {
-            blocks.push_back({corner, static_cast<int>(turned), 0});
+            blocks.push_back({corner, turned, 0});
           }
         }
       }
@@ -227,7 +208,7 @@ class PlaceSearch {
 
   void Score(int level, Block* block) const {
     block->hits = 0;
-    for (const Cell& cell : turned_[static_cast<std::size_t>(block->turned)].cells) {
+    for (const Cell& cell : turned_[block->turned].cells) {
       block->hits += occupancy_.Has(cell + block->corner, level) ? 1 : 0;
     }
   }
@@ -252,7 +233,7 @@ class PlaceSearch {
     for (const Block& block : blocks) {
       if (places.size() == count) break;
       const Eigen::Vector3d t = cell_m_ * (block.corner.cast<double>().array() + 0.5);
-      const SE3 place(turned_[static_cast<std::size_t>(block.turned)].q_world_body, t);
+      const SE3 place(turned_[block.turned].q_world_body, t);
       const bool is_new = std::none_of(places.begin(), places.end(), [&](const SE3& other) {
         return (other.t - t).norm() < same_m && other.q.angularDistance(place.q) < same_rad;
       });

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "core/odometry/sensing/choose_evenly.h"
 #include "core/odometry/window/association.h"
 #include "factors/segment_registration.h"
 #include "manifolds/se3_interpolation.h"
@@ -80,10 +81,9 @@ class Hypothesis {
       const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
       const Eigen::Vector3d origin_world = motion.ToWorld(
           point.alpha, sweep_.lidar_origins_body_m[sweep_.registration_points[i].lidar]);
-      const double distance_m = point.normal_world.dot(p_world) - point.offset_m;
       found_[i].normal = point.normal_world;
-      found_[i].agrees =
-          std::abs(distance_m) < kAgreement_m && !GoesThroughSurface(origin_world, p_world);
+      found_[i].agrees = std::abs(point.DistanceToPlane(p_world)) < kAgreement_m &&
+                         !GoesThroughSurface(origin_world, p_world);
       agreeing_ += found_[i++].agrees ? 1 : 0;
     }
   }
@@ -188,18 +188,7 @@ class Hypothesis {
   int agreeing_ = 0;
 };
 
-/// Fewer points, and those of the sweep as a rigid cloud in the body frame at its begin.
-SegmentCloud Thin(const SegmentCloud& sweep) {
-  SegmentCloud thin;
-  thin.lidar_origins_body_m = sweep.lidar_origins_body_m;
-  const std::vector<SegmentPoint>& points = sweep.registration_points;
-  const std::size_t count = std::min(points.size(), kMaxPoints);
-  for (std::size_t i = 0; i < count; ++i) {
-    thin.registration_points.push_back(points[i * points.size() / count]);
-  }
-  return thin;
-}
-
+/// The sweep as a rigid cloud in the body frame at its begin.
 std::vector<Eigen::Vector3d> Rigid(const SegmentCloud& sweep, const Vector6d& tau) {
   const SegmentMotion motion(SE3(), se3::Exp(tau));
   std::vector<Eigen::Vector3d> points;
@@ -228,7 +217,9 @@ std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d&
                                       const RegistrationOptions& registration,
                                       ThreadPool* threads) {
   const bool has_motion = sweep.end_ns > sweep.begin_ns;
-  const SegmentCloud thin = Thin(sweep);
+  SegmentCloud thin;
+  thin.lidar_origins_body_m = sweep.lidar_origins_body_m;
+  thin.registration_points = ChooseEvenly(sweep.registration_points, kMaxPoints);
   std::vector<Hypothesis> all;
   for (const SE3& place : FindPlaces(Rigid(thin, tau), map.finest(), region, kPlaces, threads)) {
     Hypothesis hypothesis(thin, tau, map, threads);

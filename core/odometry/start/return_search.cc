@@ -35,6 +35,12 @@ bool IsInstant(const SegmentCloud& segment) {
                      [](const SegmentPoint& point) { return point.alpha == 1.0F; });
 }
 
+/// How far a body gets off its course: three standard deviations of white noise on acceleration, or
+/// a steady acceleration.
+double Reach(double density, double acceleration, double unseen_s) {
+  return std::max(3.0 * UnseenSigma(density, unseen_s), 0.5 * acceleration * unseen_s * unseen_s);
+}
+
 }  // namespace
 
 void ReturnSearch::Add(SegmentCloud segment) {
@@ -95,17 +101,14 @@ SearchRegion ReturnSearch::Region(std::int64_t t_ns) const {
   region.vertical_world = attitude_.VerticalInWorld();
   region.center_world = (last_.T_world_body * se3::Exp(kMiddle * moving_s * last_.velocity)).t;
   const double way_m = moved_s * last_.velocity.head<3>().norm();
-  const double reach_m = std::max(3.0 * UnseenSigma(last_.density[0], unseen_s),
-                                  0.5 * kAcceleration_m_s2 * unseen_s * unseen_s) +
-                         kMinRadius_m;
+  const double reach_m = Reach(last_.density[0], kAcceleration_m_s2, unseen_s) + kMinRadius_m;
   region.radius_m = std::min(kMiddle * way_m + reach_m, kMaxRadius_m);
 
   const Eigen::Vector3d turn_rate_world = last_.T_world_body.q * last_.velocity.tail<3>();
   region.mean_turn_rad = kMiddle * moving_s * turn_rate_world.dot(region.vertical_world);
   const double turn_rad = kMiddle * moved_s * last_.velocity.tail<3>().norm();
-  const double turn_reach_rad = std::max(3.0 * UnseenSigma(last_.density[3], unseen_s),
-                                         0.5 * kTurnAcceleration_rad_s2 * unseen_s * unseen_s) +
-                                kMinTurn_rad;
+  const double turn_reach_rad =
+      Reach(last_.density[3], kTurnAcceleration_rad_s2, unseen_s) + kMinTurn_rad;
   region.max_turn_rad = std::min(turn_rad + turn_reach_rad, M_PI);
   region.q_world_body = {last_.T_world_body.q};
   const Eigen::Quaterniond level = attitude_.Levelled(last_.T_world_body.q);
@@ -116,7 +119,6 @@ SearchRegion ReturnSearch::Region(std::int64_t t_ns) const {
 }
 
 ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
-  looked_ = true;
   since_look_s_ = 0.0;
   ReturnSweep sweep = Merge();
   if (IsInstant(sweep.cloud)) {

@@ -44,7 +44,6 @@ class ReturnSearch {
   /// Whether it has looked long enough (LostOptions::kMaxSearch_s of data).
   bool IsHopeless() const { return searched_s_ >= LostOptions::kMaxSearch_s; }
   bool HasPoints() const { return !segments_.empty(); }
-  bool HasLooked() const { return looked_; }
 
   ReturnSweep Look(const MapPyramid& map, ThreadPool* threads);
   std::vector<SegmentCloud> TakeSegments() { return std::move(segments_); }
@@ -61,7 +60,6 @@ class ReturnSearch {
   std::vector<SegmentCloud> segments_;  ///< In a row; the first one has points.
   double searched_s_ = 0.0;             ///< Time with points since then.
   double since_look_s_ = 0.0;
-  bool looked_ = false;
 };
 
 }  // namespace trajlo

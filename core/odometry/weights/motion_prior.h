@@ -28,10 +28,10 @@ struct MotionPriorOptions {
       "White noise on acceleration, which ties neighbouring segments, or the paper's "
       "pseudo-velocity, which ties a segment to the last estimate of the one before.");
     d(OptionFor::kUsers, "self_tuning", self_tuning,
-      "Lets the two densities below follow the motion; false keeps them.");
+      "Lets the densities of the prior (expert.motion_prior) follow the motion; false keeps them.");
     d(OptionFor::kExperts, "translation_m2_s3", translation_m2_s3, Range<double>{1e-9, 1e9},
-      "Spectral density of the acceleration: how freely the body moves. 1.5 times the squared "
-      "change of a segment's translation, by the cube of its length.");
+      "Spectral density of the acceleration: how freely the body moves. The translations of "
+      "neighbouring segments of length dt differ by a variance of 2/3 of it times dt^3.");
     d(OptionFor::kExperts, "rotation_rad2_s3", rotation_rad2_s3, Range<double>{1e-9, 1e9},
       "The same for rotation.");
     d(OptionFor::kExperts, "min_translation_m2_s3", min_translation_m2_s3, Range<double>{1e-9, 1e9},

@@ -18,7 +18,7 @@ struct RegistrationOptions {
     d(OptionFor::kUsers, "sigma_m", sigma_m, Range<double>{1e-4, 10.0},
       "Standard deviation of a point's distance to its plane.");
     d(OptionFor::kExperts, "points_per_error", points_per_error, Range<double>{1.0, 1e6},
-      "Points that hit the same surface share its error: so many count as one.");
+      "Points on the same surface share its error: this many count as one measurement.");
     d(OptionFor::kExperts, "kernel", kernel,
       Names<KernelKind>{{"none", KernelKind::kNone},
                         {"huber", KernelKind::kHuber},

@@ -14,10 +14,10 @@ struct MarginalizationOptions {
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "enabled", enabled,
-      "false: what leaves the window is forgotten, and its last pose is held as the first pose of "
-      "a recording is.");
+      "false forgets what leaves the window; the first pose that stays is held as the first pose "
+      "of a recording is.");
     d(OptionFor::kExperts, "first_estimate_jacobians", first_estimate_jacobians,
-      "Keeps the Jacobian of the prior as it was where the poses left.");
+      "Keeps the Jacobian of the prior as it was when the poses left.");
     d(OptionFor::kExperts, "use_qr", use_qr,
       "Orthogonal elimination in place of the Schur complement.");
   }

@@ -4,6 +4,18 @@
 #include <algorithm>
 
 namespace trajlo {
+namespace {
+
+RegistrationNormalEquations ShiftTo(const SE3& T_begin, const SE3& T_end,
+                                    const LinearizedRegistration& known) {
+  RegistrationNormalEquations shifted = known.equations;
+  Vector12d xi;
+  xi << Minus(T_begin, known.T_world_begin), Minus(T_end, known.T_world_end);
+  ShiftRegistration(xi, &shifted);
+  return shifted;
+}
+
+}  // namespace
 
 bool RegistrationEvaluator::IsKnown(const Window& window, const std::vector<SE3>& poses,
                                     std::size_t k) const {
@@ -30,11 +42,10 @@ void RegistrationEvaluator::Evaluate(Window* window, const std::vector<SE3>& pos
   threads_->ParallelFor(chunks_.size(), [&](std::size_t i) {
     Chunk& chunk = chunks_[i];
     const RegistrationPoint* points = window->segments[chunk.segment].points.data() + chunk.first;
-    const SegmentLinearizer& linearizer = linearizers[chunk.segment];
     if (jacobians) {
-      chunk.sum = linearizer.Linearize(points, chunk.count);
+      chunk.sum = linearizers[chunk.segment].Linearize(points, chunk.count);
     } else {
-      chunk.sum.cost = linearizer.Cost(points, chunk.count);
+      chunk.sum.cost = linearizers[chunk.segment].Cost(points, chunk.count);
     }
   });
   std::vector<SegmentLinearizer::Sum> sums(segments);
@@ -44,10 +55,7 @@ void RegistrationEvaluator::Evaluate(Window* window, const std::vector<SE3>& pos
     RegistrationNormalEquations& result = (*equations)[k];
     std::optional<LinearizedRegistration>& known = window->segments[k].linearization;
     if (IsKnown(*window, poses, k)) {
-      result = known->equations;
-      Vector12d xi;
-      xi << Minus(poses[k], known->T_world_begin), Minus(poses[k + 1], known->T_world_end);
-      ShiftRegistration(xi, &result);
+      result = ShiftTo(poses[k], poses[k + 1], *known);
     } else if (jacobians) {
       result = linearizers[k].Finish(sums[k]);
       known = {poses[k], poses[k + 1], result};

@@ -29,16 +29,16 @@ WindowCost CostWithoutRegistration(const Window& window, const std::vector<SE3>&
 LinearizedMotion LinearizeMotion(const Window& window, const std::vector<SE3>& poses, int k) {
   const auto i = static_cast<std::size_t>(k);
   const MotionTerm& motion = window.segments[i].motion;
-  LinearizedMotion linearized = {0, 0, Vector6d::Zero(), Eigen::Matrix<double, 6, 18>::Zero()};
+  LinearizedMotion linearized = {0, 0, MotionResidual(window, poses, i),
+                                 Eigen::Matrix<double, 6, 18>::Zero()};
   if (const auto* known = std::get_if<SmoothnessTerm>(&motion)) {
-    const SmoothnessTerm::Linearization linear = known->Linearize(poses[i], poses[i + 1]);
     linearized.first = k;
     linearized.count = 2;
-    linearized.residual = linear.residual;
-    linearized.jacobian.leftCols<12>() << linear.wrt_begin, linear.wrt_end;
+    linearized.jacobian.leftCols<12>() = known->Jacobian(poses[i], poses[i + 1]);
   } else if (const auto* free = std::get_if<WhiteNoiseAccelerationTerm>(&motion)) {
-    const auto linear = free->Linearize(poses[i - 1], poses[i], poses[i + 1]);
-    linearized = {k - 1, 3, linear.residual, linear.wrt_poses};
+    linearized.first = k - 1;
+    linearized.count = 3;
+    linearized.jacobian = free->Jacobian(poses[i - 1], poses[i], poses[i + 1]);
   }
   return linearized;
 }

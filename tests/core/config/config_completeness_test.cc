@@ -107,7 +107,7 @@ TEST(ConfigCompleteness, AUserMeetsFewOptions) {
   int users = 0, experts = 0;
   for (const KeyInfo& info : ListKeys()) ++(info.key.rfind("expert.", 0) == 0 ? experts : users);
   EXPECT_LE(users, 25);
-  EXPECT_LE(experts, 42);
+  EXPECT_LE(experts, 38);
 }
 
 TEST(ConfigCompleteness, EveryShippedConfigLoadsAndPassesTheChecks) {

@@ -251,7 +251,7 @@ TEST(ScanListing, MissingEmptyAndAmbiguousFoldersAreExplained) {
     }
     return "no error";
   };
-  EXPECT_THAT(message(folder.path() / "nowhere"), HasSubstr("there is no such folder"));
+  EXPECT_THAT(message(folder.path() / "nowhere"), HasSubstr("there is no such file or folder"));
   EXPECT_THAT(message(folder.path()), HasSubstr("0 subfolders and 0 files"));
   EXPECT_THAT(message(folder.Write("notes.txt", "")), HasSubstr("not a folder"));
   EXPECT_THAT(message(folder.path()), HasSubstr("1 files of other kinds"));

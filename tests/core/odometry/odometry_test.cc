@@ -433,7 +433,7 @@ TEST(Odometry, KeepsItsOwnCopyOfTheOptions) {
   auto options = std::make_unique<OdometryOptions>(RoomOptions());
   Odometry odometry(*options);
   options->window.segments = 1;
-  options->lost.max_correction_m = 0.0;
+  options->lost.min_inlier_share = 1.0;
   options.reset();
   for (int i = 0; i < 10; ++i) odometry.AddScan(world.Sweep(i));
   odometry.Finish();

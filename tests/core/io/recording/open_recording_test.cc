@@ -189,7 +189,7 @@ TEST(OpenRecording, WhatMayNotBeReadIsNamedAsSuch) {
   }
   SmallRoom(2).Write(temp / "folder");
   EXPECT_THAT(ErrorWithoutRights(temp, "folder"), HasSubstr("Permission denied"));
-  EXPECT_THAT(ErrorOf(temp / "absent"), HasSubstr("no such folder"));
+  EXPECT_THAT(ErrorOf(temp / "absent"), HasSubstr("no such file or folder"));
 }
 
 TEST(OpenRecording, AFileOfMessagesIsToldByItsBytesAndNotByItsName) {

@@ -26,9 +26,6 @@ TEST(WindowCondition, NamesTheDirectionThatNoPlaneHolds) {
 }
 
 TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
-  LostOptions options;
-  options.max_correction_m = 0.5;
-  options.max_correction_rad = 0.2;
   const SE3 predicted = se3::Exp(Vector6d::Constant(0.7));
   const auto at = [&](double x_m, double yaw_rad) {
     Vector6d tau = Vector6d::Zero();
@@ -36,12 +33,12 @@ TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
     tau[5] = yaw_rad;
     WindowStatistics statistics;
     statistics.SetCorrection(predicted, predicted * se3::Exp(tau));
-    return IsBelievable(statistics, Window(), options);
+    return IsBelievable(statistics, Window());
   };
-  EXPECT_TRUE(at(0.4, 0.0));
-  EXPECT_FALSE(at(0.6, 0.0));
-  EXPECT_TRUE(at(0.0, -0.15));
-  EXPECT_FALSE(at(0.0, -0.25));
+  EXPECT_TRUE(at(2.9, 0.0));
+  EXPECT_FALSE(at(3.1, 0.0));
+  EXPECT_TRUE(at(0.0, -0.95));
+  EXPECT_FALSE(at(0.0, -1.05));
 }
 
 TEST(Belief, ARevertedWindowForgetsItsRegistration) {

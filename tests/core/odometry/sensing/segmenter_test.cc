@@ -41,26 +41,6 @@ std::vector<SegmentCloud> Drain(Segmenter* segmenter) {
   return clouds;
 }
 
-TEST(Segmenter, CutsScansOfAnyLengthAtTheSameBoundaries) {
-  std::vector<std::vector<SegmentCloud>> results;
-  for (int scan_ms : {7, 50, 100, 400}) {
-    Segmenter segmenter(SmallOptions());
-    for (int t = 0; t < 2800; t += scan_ms) segmenter.AddScan(MakeScan(t, scan_ms));
-    segmenter.Finish();
-    results.push_back(Drain(&segmenter));
-  }
-  for (const auto& clouds : results) {
-    ASSERT_GE(clouds.size(), 90u);
-    for (std::size_t k = 0; k < 90; ++k) {
-      EXPECT_EQ(clouds[k].begin_ns, results[0][k].begin_ns);
-      ASSERT_EQ(clouds[k].map_points.size(), results[0][k].map_points.size());
-      for (std::size_t i = 0; i < clouds[k].map_points.size(); ++i) {
-        EXPECT_EQ(clouds[k].map_points[i].alpha, results[0][k].map_points[i].alpha);
-      }
-    }
-  }
-}
-
 TEST(Segmenter, HasNoHolesBetweenSegmentsAndTimesWithinThem) {
   Segmenter segmenter(SmallOptions());
   for (int t = 0; t < 1000; t += 100) segmenter.AddScan(MakeScan(t, 100));
@@ -77,29 +57,18 @@ TEST(Segmenter, HasNoHolesBetweenSegmentsAndTimesWithinThem) {
   }
 }
 
-/// Asks for segments of 1, 3, 2, 1, 3, 2, ... slots, as far as they are complete.
-void DrainByTurns(Segmenter* segmenter, std::vector<SegmentCloud>* clouds) {
-  const int slots[] = {1, 3, 2};
-  while (auto cloud = segmenter->Next(slots[clouds->size() % 3])) {
-    clouds->push_back(std::move(*cloud));
-  }
-}
-
-TEST(Segmenter, CutsSegmentsOfChangingLengthWithoutHolesOrLostPoints) {
-  SegmenterOptions options = SmallOptions();
+TEST(Segmenter, CutsScansOfAnyLengthAtTheSameBoundariesAndLosesNoPoint) {
   std::vector<std::vector<SegmentCloud>> results;
-  for (int scan_ms : {7, 40, 100, 400}) {
-    Segmenter segmenter(options, 3);
-    std::vector<SegmentCloud> clouds;
+  for (int scan_ms : {7, 50, 100, 400}) {
+    Segmenter segmenter(SmallOptions());
     for (int t = 0; t < 2800; t += scan_ms) {
       segmenter.AddScan(MakeScan(t, std::min(scan_ms, 2800 - t)));
-      DrainByTurns(&segmenter, &clouds);
     }
     segmenter.Finish();
-    DrainByTurns(&segmenter, &clouds);
-    results.push_back(std::move(clouds));
+    results.push_back(Drain(&segmenter));
   }
   for (const auto& clouds : results) {
+    ASSERT_GE(clouds.size(), 90u);
     ASSERT_EQ(clouds.size(), results[0].size());
     std::size_t points = 0;
     for (std::size_t k = 0; k < clouds.size(); ++k) {
@@ -119,25 +88,6 @@ TEST(Segmenter, CutsSegmentsOfChangingLengthWithoutHolesOrLostPoints) {
     }
     EXPECT_EQ(points, 2800u);
   }
-  EXPECT_EQ(results[0][1].end_ns - results[0][1].begin_ns, 30 * kMs);
-  EXPECT_EQ(results[0][2].end_ns - results[0][2].begin_ns, 20 * kMs);
-  EXPECT_EQ(results[0][3].end_ns - results[0][3].begin_ns, 10 * kMs);
-}
-
-TEST(Segmenter, ASegmentOfSeveralSlotsEndsEarlyBeforeAGap) {
-  Segmenter segmenter(SmallOptions(), 3);
-  segmenter.AddScan(MakeScan(0, 105));
-  segmenter.AddScan(MakeScan(5000, 100));
-  ASSERT_TRUE(segmenter.Next(3));
-  const auto before = segmenter.Next(3);
-  const auto gap = segmenter.Next(3);
-  const auto after = segmenter.Next(3);
-  ASSERT_TRUE(before && gap && after);
-  EXPECT_EQ(before->end_ns, 110 * kMs);
-  EXPECT_EQ(before->map_points.size(), 5u);
-  EXPECT_TRUE(gap->is_gap);
-  EXPECT_EQ(gap->end_ns, 5000 * kMs);
-  EXPECT_EQ(after->end_ns, 5030 * kMs);
 }
 
 TEST(Segmenter, DropsAndCountsPointsThatCannotBeUsed) {
@@ -364,7 +314,7 @@ TEST(Segmenter, NoSegmentIsShorterThanAMillisecond) {
     const int lidars = 1 + below(3);
     options.T_body_lidar.resize(static_cast<std::size_t>(lidars));
     const int discrete = below(3);  // Never, always, now and then.
-    Segmenter segmenter(options, 1 + below(3));
+    Segmenter segmenter(options);
     std::vector<std::int64_t> now_ns(3, 0);
     std::vector<SegmentCloud> clouds;
     for (int i = 0; i < 60; ++i) {
@@ -379,10 +329,10 @@ TEST(Segmenter, NoSegmentIsShorterThanAMillisecond) {
         point.t_ns = scan.has_point_times ? scan.stamp_ns + point.t_ns / 10 : scan.stamp_ns;
       }
       segmenter.AddScan(scan);
-      while (auto cloud = segmenter.Next(1 + below(3))) clouds.push_back(std::move(*cloud));
+      while (auto cloud = segmenter.Next()) clouds.push_back(std::move(*cloud));
     }
     segmenter.Finish();
-    while (auto cloud = segmenter.Next(1 + below(3))) clouds.push_back(std::move(*cloud));
+    while (auto cloud = segmenter.Next()) clouds.push_back(std::move(*cloud));
     ASSERT_FALSE(clouds.empty());
     for (std::size_t k = 0; k < clouds.size(); ++k) {
       const std::int64_t duration_ns = clouds[k].end_ns - clouds[k].begin_ns;

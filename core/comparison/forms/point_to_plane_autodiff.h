@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "factors/autodiff_pose.h"
+#include "core/comparison/forms/autodiff_pose.h"
 #include "factors/registration_point.h"
 
 namespace trajlo {
