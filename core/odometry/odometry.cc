@@ -158,6 +158,8 @@ void Odometry::Step(SegmentCloud cloud) {
     Revert(predicted, &window_);
   }
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
+  lasting_flags_ = LastingFlags(lasting_flags_, statistics);
+  statistics.flags |= lasting_flags_;
   window_.segments.back().flags = statistics.flags;
   Describe(window_, &statistics);
   if (window_.size() >= options_.window.segments) Leave(&statistics);

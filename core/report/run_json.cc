@@ -41,6 +41,7 @@ Json InputJson(const RunSummary& s) {
             {"stamp_repeated", s.times.repeated},
             {"points_repeated", s.times.stuck},
             {"clock_apart", s.times.apart},
+            {"points_exchanged", s.times.exchanged},
             {"unseen_at_the_end", s.times.Unseen()}}},
           {"clock_steps", s.times.clock_steps},
           {"points",

@@ -64,6 +64,10 @@ std::string RunSummary::MissingInput() const {
     parts.push_back(std::to_string(times.stuck) + " of " + std::to_string(times.scans) +
                     " scans have the points of a scan before");
   }
+  if (static_cast<double>(times.exchanged) > kSizeableShare * scans) {
+    parts.push_back(std::to_string(times.exchanged) + " of " + std::to_string(times.scans) +
+                    " scans seem to be out of order, by what they show");
+  }
   if (static_cast<double>(times.Unseen()) > kSizeableShare * scans) {
     parts.push_back("the last " + std::to_string(times.Unseen()) + " of " +
                     std::to_string(times.scans) +

@@ -53,8 +53,10 @@ void LidarTrack::NoteAt(const ScanPlace& place, const LidarScan& scan, const Sca
   last_recorded_begin_ns_ = times.begin_ns;
   stands_still_ = false;
   memory_.Add(place.begin_ns, scan);
-  views_.emplace_back(scan);
-  if (views_.size() > 2) views_.pop_front();
+  ScanView view(scan);
+  if (!scan.has_point_times && AreExchangedByView(view)) exchanged_ += 2;
+  views_.push_back(std::move(view));
+  if (views_.size() > 3) views_.pop_front();
 }
 
 void LidarTrack::Hold(HeldScan* held) {

@@ -102,6 +102,9 @@ class LidarTrack {
     /// The first LiDAR had fallen silent before this one spoke.
     bool never_together;
   };
+  /// Motion-corrected scans that, by their views, have each other's points, in spite of stamps that
+  /// go on.
+  std::int64_t exchanged() const { return exchanged_; }
   std::optional<Apart> TakeApart() { return std::exchange(apart_, std::nullopt); }
   /// Where the first scan that was handed on lies.
   std::int64_t first_ns() const { return first_ns_; }
@@ -122,6 +125,7 @@ class LidarTrack {
   bool IsSameClock(std::size_t i, const Others& others) const;
   bool IsNextByView(std::size_t i) const;
   std::size_t FirstByView(std::size_t next) const;
+  bool AreExchangedByView(const ScanView& next) const;
 
   bool Start(const Others& others, bool is_final);
   std::vector<std::int64_t> EvenPace() const;
@@ -150,7 +154,8 @@ class LidarTrack {
   std::int64_t last_recorded_begin_ns_ = 0;  ///< Of the last scan that was handed on.
   bool stands_still_ = false;                ///< The last scan got its time because stamps do.
   ScanMemory memory_;
-  std::deque<ScanView> views_;  ///< Of the last two scans that were handed on.
+  std::deque<ScanView> views_;  ///< Of the last three scans that were handed on.
+  std::int64_t exchanged_ = 0;
   std::vector<Judgement> judgements_;
   std::optional<Step> step_;
   std::optional<Apart> apart_;

@@ -45,19 +45,32 @@ std::size_t LidarTrack::FirstByView(std::size_t next) const {
 /// before and behind, they differ as neighbours do.
 bool LidarTrack::IsNextByView(std::size_t i) const {
   if (i + 2 >= held_.size() || views_.size() < 2) return false;
+  const ScanView& last_but_one = views_[views_.size() - 2];
   // A clock that is back where it was is next without its offset.
   const bool is_back = clock_.IsNext(held_[i]->times.begin_ns);
   if (!is_back && PeriodsAhead(*held_[i]) < kFewestPeriods) return false;
   const ScanView& here = held_[i]->view;
-  const auto before = ScanView::Difference(views_.front(), views_.back());
+  const auto before = ScanView::Difference(last_but_one, views_.back());
   const auto across = ScanView::Difference(views_.back(), here);
-  const auto two_across = ScanView::Difference(views_.front(), here);
+  const auto two_across = ScanView::Difference(last_but_one, here);
   const auto behind = ScanView::Difference(here, held_[i + 1]->view);
   const auto two_behind = ScanView::Difference(here, held_[i + 2]->view);
   if (!before || !across || !two_across || !behind || !two_behind) return false;
   const bool is_moving = *two_across > kAlike * *across && *two_behind > kAlike * *behind;
   const double neighbors = std::min(*before, *behind);
   return is_moving && *across < kAlike * neighbors && *two_across < kAlike * *two_behind;
+}
+
+/// True if the way from the last but two to `next` is clearly shorter with the two scans between
+/// them exchanged.
+bool LidarTrack::AreExchangedByView(const ScanView& next) const {
+  if (views_.size() < 3) return false;
+  const auto begin = ScanView::Difference(views_[0], views_[1]);
+  const auto end = ScanView::Difference(views_[2], next);
+  const auto begin_exchanged = ScanView::Difference(views_[0], views_[2]);
+  const auto end_exchanged = ScanView::Difference(views_[1], next);
+  if (!begin || !end || !begin_exchanged || !end_exchanged) return false;
+  return *begin_exchanged + *end_exchanged < kClearlyNearer * (*begin + *end);
 }
 
 }  // namespace trajlo

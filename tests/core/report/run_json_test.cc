@@ -89,6 +89,9 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.times.assumed = 4;
   EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are assumed");
   s.times.assumed = 0;
+  s.times.exchanged = 6;
+  EXPECT_EQ(s.MissingInput(), "6 of 100 scans seem to be out of order, by what they show");
+  s.times.exchanged = 5;
   s.times.until_last_point = 95;
   EXPECT_EQ(s.MissingInput(), "");
   s.times.until_last_point = 94;

@@ -86,6 +86,18 @@ TEST_P(Moving, SwappedScansArePutInOrder) {
   EXPECT_EQ(result.report.reordered, 3);
 }
 
+/// Files with wrong names: the stamps go on.
+TEST_P(Moving, ScansWithEachOthersPointsAreCountedIfNothingElseTellsTheirTime) {
+  std::vector<LidarScan> scans = Scans(20);
+  for (const std::size_t i : {5u, 9u, 14u}) {
+    SwapTimes(&scans[i], &scans[i + 1]);
+    std::swap(scans[i], scans[i + 1]);
+  }
+  EXPECT_EQ(Sequence(scans).report.exchanged, GetParam() ? 0 : 6);
+  EXPECT_EQ(Sequence(Scans(20)).report.exchanged, 0);
+  EXPECT_EQ(Sequence(Scans(20, 0.0)).report.exchanged, 0);
+}
+
 TEST_P(Moving, AShortStepOfTheClockIsNoPause) {
   for (const std::int64_t step_ns : {3 * kPeriod, 5 * kPeriod + kPeriod / 2, 30 * kPeriod}) {
     std::vector<LidarScan> scans = Scans(25);
