@@ -40,7 +40,8 @@ struct Judgement {
   std::int64_t shift_ns;
 };
 
-/// Judges the times of the scans of one LiDAR.
+/// Judges the times of the scans of one LiDAR. (lidar_track_start.cc has the first scans,
+/// lidar_track_views.cc what views tell.)
 ///
 /// Scans of a LiDAR come in order and at a steady period. One that goes on from the scan before is
 /// handed on at once. Any other is held until those after it tell what happened:
