@@ -138,8 +138,8 @@ bool LidarTrack::DidTimePass(std::size_t i, const Others& others) const {
 bool LidarTrack::IsSameClock(std::size_t i, const Others& others) const {
   const std::int64_t ahead_ns = Ahead(*held_[i]);
   if (ahead_ns <= 0) return false;
-  // Neither times of recording nor other LiDARs tell of so little time. Nor is one looked at alone
-  // where there are others.
+  // Times of recording do not tell of so little time. Where there are other LiDARs, the views of
+  // one alone are not asked.
   if (ahead_ns <= clock_.longest_step_ns()) return !others.started.empty() || !IsNextByView(i);
   return DidTimePass(i, others);
 }

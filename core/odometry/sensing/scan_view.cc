@@ -19,7 +19,8 @@ constexpr float kNearest_m = 0.3F;
 
 std::size_t DirectionOf(const Eigen::Vector3f& p, float range_m) {
   const float azimuth = std::atan2(p.y(), p.x()) / static_cast<float>(2.0 * M_PI) + 0.5F;
-  const float elevation = std::asin(p.z() / range_m) / static_cast<float>(M_PI) + 0.5F;
+  const float sine = std::clamp(p.z() / range_m, -1.0F, 1.0F);
+  const float elevation = std::asin(sine) / static_cast<float>(M_PI) + 0.5F;
   const auto part = [](float share, std::size_t parts) {
     return std::min(static_cast<std::size_t>(share * static_cast<float>(parts)), parts - 1);
   };
