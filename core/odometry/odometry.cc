@@ -39,7 +39,9 @@ void Odometry::AddScan(const LidarScan& scan) { sequencer_.Add(scan); }
 void Odometry::CutSegments(const LidarScan& scan) {
   if (on_scan_) on_scan_(scan);
   Stopwatch watch;
+  const std::int64_t kept = segmenter_.counts().Kept();
   segmenter_.AddScan(scan);
+  if (segmenter_.counts().Kept() > kept) sequencer_.NoteUse();
   segment_ms_ += watch.Milliseconds();
   ProcessSegments();
 }
@@ -75,6 +77,7 @@ void Odometry::ProcessSegments() {
 }
 
 void Odometry::Take(SegmentCloud cloud) {
+  if (first_scan_) FindFirstVelocity(cloud);
   if (cloud.is_gap && !starvation_.was_fed()) {
     SettleWindow(cloud.end_ns);
     window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
@@ -110,8 +113,23 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
   AddToMap(cloud, T_begin, T_end);
   window_ = MakeWindow(cloud.end_ns, T_end);
   window_.begin_flags = flags;
-  if (duration_s > 0.0) window_.begin_velocity = tau / duration_s;
+  if (duration_s > 0.0) {
+    window_.begin_velocity = tau / duration_s;
+  } else {
+    first_scan_ = cloud;
+  }
   starvation_.Begin(cloud.end_ns);
+}
+
+/// A scan of one time does not tell how it moves; two of them do.
+void Odometry::FindFirstVelocity(const SegmentCloud& cloud) {
+  const SegmentCloud first = *std::exchange(first_scan_, std::nullopt);
+  if (cloud.is_gap) return;
+  const SegmentCloud both = JoinScans(first, cloud);
+  const double duration_s = 1e-9 * static_cast<double>(both.end_ns - both.begin_ns);
+  window_.begin_velocity = MotionOfFirstInterval(both, options_.initialization, options_.map,
+                                                 options_.registration, &threads_) /
+                           duration_s;
 }
 
 /// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.
@@ -141,6 +159,8 @@ void Odometry::Step(SegmentCloud cloud) {
     Revert(predicted, &window_);
   }
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
+  lasting_flags_ = LastingFlags(lasting_flags_, statistics);
+  statistics.flags |= lasting_flags_;
   window_.segments.back().flags = statistics.flags;
   Describe(window_, &statistics);
   if (window_.size() >= options_.window.segments) Leave(&statistics);

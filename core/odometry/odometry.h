@@ -66,6 +66,7 @@ class Odometry {
   void ProcessSegments();
   void Start(const SegmentCloud& cloud);
   void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau, unsigned flags);
+  void FindFirstVelocity(const SegmentCloud& cloud);
   void Take(SegmentCloud cloud);
   void Step(SegmentCloud cloud);
   void BeginSearch();
@@ -99,6 +100,8 @@ class Odometry {
   std::function<void(const WindowStatistics&)> on_window_;
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;
+  std::optional<SegmentCloud> first_scan_;  ///< Of a map that begins with one time.
+  unsigned lasting_flags_ = 0;              ///< Of the window before, see LastingFlags.
   bool started_ = false;
   std::int64_t windows_ = 0;
   double segment_ms_ = 0.0;

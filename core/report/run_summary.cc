@@ -55,13 +55,23 @@ std::string RunSummary::MissingInput() const {
                     std::to_string(read.points_without_time) + " impossible)");
   }
   const auto scans = static_cast<double>(times.scans);
-  if (static_cast<double>(times.assumed) > kSizeableShare * scans) {
-    parts.push_back("the times of " + std::to_string(times.assumed) + " of " +
+  const std::int64_t assumed = times.assumed + times.retimed;
+  if (static_cast<double>(assumed) > kSizeableShare * scans) {
+    parts.push_back("the times of " + std::to_string(assumed) + " of " +
                     std::to_string(times.scans) + " scans are assumed");
   }
   if (static_cast<double>(times.stuck) > kSizeableShare * scans) {
     parts.push_back(std::to_string(times.stuck) + " of " + std::to_string(times.scans) +
                     " scans have the points of a scan before");
+  }
+  if (static_cast<double>(times.exchanged) > kSizeableShare * scans) {
+    parts.push_back(std::to_string(times.exchanged) + " of " + std::to_string(times.scans) +
+                    " scans seem to be out of order, by what they show");
+  }
+  if (static_cast<double>(times.Unseen()) > kSizeableShare * scans) {
+    parts.push_back("the last " + std::to_string(times.Unseen()) + " of " +
+                    std::to_string(times.scans) +
+                    " scans have no point that can be used: the trajectory ends before them");
   }
   if (times.clocks_may_differ) parts.push_back("the clocks of the LiDARs may differ");
   std::string text;

@@ -98,7 +98,7 @@ def interrupt(*_):
     raise KeyboardInterrupt
 
 
-def guarded(parser, work):
+def guarded(parser, work, how_to_go_on="the same command goes on where this one stopped"):
     """Calls work(arguments) and turns what goes wrong into messages and exit codes."""
     signal.signal(signal.SIGTERM, interrupt)
     arguments = parser.parse_args()
@@ -111,5 +111,5 @@ def guarded(parser, work):
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 5
     except KeyboardInterrupt:
-        print("interrupted; the same command goes on where this one stopped", file=sys.stderr)
+        print(f"interrupted; {how_to_go_on}", file=sys.stderr)
         return 130

@@ -25,10 +25,9 @@ def base_clock_ns(scene):
     return -START_NS if scene.name == "kitti" else 0
 
 
-def open_recordings(scene, kind, folder):
-    """One for each LiDAR."""
+def open_recordings(scene, kind, folder, clock_ns):
+    """One for each LiDAR; `clock_ns` is what the clock of the first one adds to the true time."""
     inputs = scenes.inputs(scene, kind, folder)
-    clock_ns = base_clock_ns(scene)
     if kind == "pcd":
         return [ScanFolder(path, clock_ns) for path in inputs]
     return open_messages(inputs[0], clock_ns)
@@ -46,7 +45,7 @@ def damage(drawn, folder, prepared):
     edits = drawn.of("stamps") + drawn.of("points") + drawn.of("folder")
     if not edits:
         return
-    recordings = open_recordings(drawn.scene, drawn.kind, folder)
+    recordings = open_recordings(drawn.scene, drawn.kind, folder, prepared.clocks_ns[-1])
     for fault in edits:
         said = fault.function(recordings[fault.lidar], fault.rng())
         prepared.said.append(f"{said}{f' of LiDAR {fault.lidar}' if fault.lidar else ''}")

@@ -55,4 +55,10 @@ void Judge(const LostOptions& options, double points_per_error, Window* window,
   }
 }
 
+unsigned LastingFlags(unsigned before, const WindowStatistics& statistics) {
+  const unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
+  if (unheld != 0) return unheld;
+  return statistics.has_converged ? 0U : before;
+}
+
 }  // namespace trajlo

@@ -16,6 +16,18 @@ constexpr int kMostOvertaken = 2;
 /// A longer jump ahead is a step of the clock, if nothing else tells.
 constexpr std::int64_t kLongestPause_ns = 60 * kSecond;
 
+void ExchangeTimes(HeldScan* a, HeldScan* b) {
+  const std::int64_t to_b_ns = Difference(b->times.begin_ns, a->times.begin_ns);
+  for (const auto& [held, shift_ns] : {std::pair(a, to_b_ns), std::pair(b, -to_b_ns)}) {
+    RemoveStrays(held->times, &held->scan);
+    ShiftTimes(shift_ns, &held->scan);
+    held->times.begin_ns += shift_ns;
+    held->times.end_ns += shift_ns;
+    held->times.center_ns += shift_ns;
+    held->is_exchanged = true;
+  }
+}
+
 }  // namespace
 
 void LidarTrack::NoteArrival(const ScanTimes& times, std::int64_t arrival) {
@@ -41,6 +53,15 @@ void LidarTrack::NoteAt(const ScanPlace& place, const LidarScan& scan, const Sca
   last_recorded_begin_ns_ = times.begin_ns;
   stands_still_ = false;
   memory_.Add(place.begin_ns, scan);
+  ScanView view(scan);
+  if (!scan.has_point_times && AreExchangedByView(view)) exchanged_ += 2;
+  views_.push_back(std::move(view));
+  if (views_.size() > 3) views_.pop_front();
+}
+
+void LidarTrack::Hold(HeldScan* held) {
+  held->view = ScanView(held->scan);
+  held_.push_back(held);
 }
 
 /// True if the scan goes on, at a steady period, from others that repeat times with new points: the
@@ -92,15 +113,18 @@ bool LidarTrack::HandOnNext() {
   if (next == held_.size()) return false;
   const ScanPlace place = PlaceOf(*held_[next]);
   if (!clock_.IsNext(place.begin_ns) || ComesFromBehind(next)) return false;
-  HandOn(held_[next], ScanFate::kHandedOn, place);
+  const std::size_t first = FirstByView(next);
+  if (first != next) ExchangeTimes(held_[first], held_[next]);
+  HandOn(held_[first], ScanFate::kHandedOn, PlaceOf(*held_[first]));
   return true;
 }
 
 /// Whether the time between the last scan and this one really passed.
-bool LidarTrack::DidTimePass(const HeldScan& held, const Others& others) const {
+bool LidarTrack::DidTimePass(std::size_t i, const Others& others) const {
+  const HeldScan& held = *held_[i];
   const ScanPlace place = PlaceOf(held);
   if (const auto agree = clock_.DoRecordTimesAgree(held.scan, place)) return *agree;
-  bool others_say_no = false;
+  bool others_say_no = IsNextByView(i);
   for (const LidarTrack* other : others.started) {
     const std::int64_t now_ns = Sum(other->newest_ns_, other->clock_.offset_ns());
     const std::int64_t to_this_ns = Distance(now_ns, place.begin_ns);
@@ -111,10 +135,13 @@ bool LidarTrack::DidTimePass(const HeldScan& held, const Others& others) const {
   return !others_say_no && Ahead(held) <= kLongestPause_ns;
 }
 
-bool LidarTrack::IsSameClock(const HeldScan& held, const Others& others) const {
-  const std::int64_t ahead_ns = Ahead(held);
+bool LidarTrack::IsSameClock(std::size_t i, const Others& others) const {
+  const std::int64_t ahead_ns = Ahead(*held_[i]);
   if (ahead_ns <= 0) return false;
-  return ahead_ns <= clock_.longest_step_ns() || DidTimePass(held, others);
+  // Times of recording do not tell of so little time. Where there are other LiDARs, the views of
+  // one alone are not asked.
+  if (ahead_ns <= clock_.longest_step_ns()) return !others.started.empty() || !IsNextByView(i);
+  return DidTimePass(i, others);
 }
 
 bool LidarTrack::GoOnFromAnchor(const Others& others, bool is_final) {
@@ -133,9 +160,14 @@ bool LidarTrack::GoOnFromAnchor(const Others& others, bool is_final) {
 /// The first scan of the same clock that others go on from; one past the end if there is none.
 std::size_t LidarTrack::FindAnchor(const Others& others, bool is_final) const {
   const std::size_t confirm = is_final ? 2 : kConfirmPause;
+  bool is_other_clock = false;
   for (std::size_t i = 0; i < held_.size(); ++i) {
+    // What goes on from a scan of another clock is of that one, too.
+    if (is_other_clock && IsPlausibleStep(*held_[i - 1], *held_[i])) continue;
+    is_other_clock = false;
     if (ChainLength(i) < confirm || ComesFromBehind(i)) continue;
-    if (IsSameClock(*held_[i], others)) return i;
+    if (IsSameClock(i, others)) return i;
+    is_other_clock = Ahead(*held_[i]) > 0;
   }
   if (!is_final) return held_.size();
   // Of the last scans, whichever comes next after a few lost ones.
@@ -151,7 +183,7 @@ std::size_t LidarTrack::FindAnchor(const Others& others, bool is_final) const {
 std::size_t LidarTrack::FindStep(const Others& others, bool is_final) const {
   const std::size_t confirm = is_final ? 2 : kConfirmStep;
   for (std::size_t i = 0; i < held_.size(); ++i) {
-    if (ChainLength(i) >= confirm && !IsSameClock(*held_[i], others)) return i;
+    if (ChainLength(i) >= confirm && !IsSameClock(i, others)) return i;
   }
   return held_.size();
 }
@@ -265,7 +297,7 @@ bool LidarTrack::StandsStill() const {
 void LidarTrack::GiveUpOldest(const Others& others) {
   HeldScan* oldest = held_.front();
   const bool increases = held_.size() < 2 || held_[1]->times.begin_ns > oldest->times.begin_ns;
-  if (held_.size() >= 2 && increases && IsSameClock(*oldest, others)) {
+  if (held_.size() >= 2 && increases && IsSameClock(0, others)) {
     HandOn(oldest, ScanFate::kHandedOn, PlaceOf(*oldest));
     return;
   }
@@ -284,6 +316,7 @@ void LidarTrack::GiveUpOldest(const Others& others) {
 void LidarTrack::HandOn(HeldScan* held, ScanFate fate, const ScanPlace& place) {
   NoteAt(place, held->scan, held->times);
   if (fate == ScanFate::kHandedOn && held->overtaken > 0) fate = ScanFate::kReordered;
+  if (held->is_exchanged) fate = ScanFate::kRetimed;
   const std::int64_t arrival = held->arrival;
   Remove(held, fate, Difference(place.begin_ns, held->times.begin_ns));
   // Those that came before it are overtaken; for some it is too late now.

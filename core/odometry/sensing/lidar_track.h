@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/odometry/sensing/lidar_scan.h"
 #include "core/odometry/sensing/scan_memory.h"
 #include "core/odometry/sensing/scan_times.h"
+#include "core/odometry/sensing/scan_view.h"
 
 namespace trajlo {
 
@@ -18,12 +20,15 @@ namespace trajlo {
 struct HeldScan {
   LidarScan scan;
   ScanTimes times;
+  ScanView view;
   /// How many scans of all LiDARs had come before.
   std::int64_t arrival = 0;
   /// The newest scan of the LiDAR that came first, when this one came; as it was recorded.
   std::int64_t reference_ns = 0;
   /// By so many scans that came later.
   int overtaken = 0;
+  /// It changed times with another one.
+  bool is_exchanged = false;
 };
 
 enum class ScanFate { kHandedOn, kReordered, kRetimed, kAssumed, kMisfit, kRepeated, kApart };
@@ -35,17 +40,20 @@ struct Judgement {
   std::int64_t shift_ns;
 };
 
-/// Judges the times of the scans of one LiDAR.
+/// Judges the times of the scans of one LiDAR. (lidar_track_start.cc has the first scans,
+/// lidar_track_views.cc what views tell.)
 ///
 /// Scans of a LiDAR come in order and at a steady period. One that goes on from the scan before is
 /// handed on at once. Any other is held until those after it tell what happened:
-///   - they fill the place before it: it came early, and is handed on in its turn;
+///   - they fill the place before it: it came early, and is handed on in its turn; but if by its
+///     view it does come next, only its stamp is wrong, and so is that of the other;
 ///   - they go on from it: there was a pause, or, if it lies behind the scan before, or so far
-///     ahead that no pause explains it, the clock made a step, which is taken back from then on;
+///     ahead that no pause explains it, or is next by its view, the clock made a step, which is
+///     taken back from then on;
 ///   - they go on from the scan before it: its stamp is wrong. It gets the free place between its
 ///     neighbours if there is one for each such scan, and is dropped otherwise, as is a scan that
 ///     was handed on before.
-/// So times that increase by steps below a minute are never changed.
+/// So times that increase by steps below a minute are only changed where views tell of a step.
 class LidarTrack {
  public:
   /// What the other LiDARs tell.
@@ -82,7 +90,7 @@ class LidarTrack {
   bool IsStuck(const LidarScan& scan, const ScanTimes& times) const;
 
   /// Takes a scan to be judged. It must stay where it is until then.
-  void Hold(HeldScan* held) { held_.push_back(held); }
+  void Hold(HeldScan* held);
   /// Judges what can be judged, in the order in which it is to be handed on; all if `is_final`.
   void Judge(const Others& others, bool is_final);
 
@@ -95,6 +103,9 @@ class LidarTrack {
     /// The first LiDAR had fallen silent before this one spoke.
     bool never_together;
   };
+  /// Motion-corrected scans that, by their views, have each other's points, in spite of stamps that
+  /// go on.
+  std::int64_t exchanged() const { return exchanged_; }
   std::optional<Apart> TakeApart() { return std::exchange(apart_, std::nullopt); }
   /// Where the first scan that was handed on lies.
   std::int64_t first_ns() const { return first_ns_; }
@@ -107,13 +118,18 @@ class LidarTrack {
   ScanPlace PlaceOf(const HeldScan& held) const { return clock_.PlaceOf(held.scan, held.times); }
   /// How far the scan lies behind the last that was handed on.
   std::int64_t Ahead(const HeldScan& held) const;
+  double PeriodsAhead(const HeldScan& held) const;
   bool IsPlausibleStep(const HeldScan& from, const HeldScan& to) const;
   /// How many scans, from this one on, go on from each other.
   std::size_t ChainLength(std::size_t first) const;
-  bool DidTimePass(const HeldScan& held, const Others& others) const;
-  bool IsSameClock(const HeldScan& held, const Others& others) const;
+  bool DidTimePass(std::size_t i, const Others& others) const;
+  bool IsSameClock(std::size_t i, const Others& others) const;
+  bool IsNextByView(std::size_t i) const;
+  std::size_t FirstByView(std::size_t next) const;
+  bool AreExchangedByView(const ScanView& next) const;
 
   bool Start(const Others& others, bool is_final);
+  std::vector<std::int64_t> EvenPace() const;
   bool FindOffset(const Others& others);
   std::size_t FirstOfChain() const;
   bool HandOnNext();
@@ -139,6 +155,8 @@ class LidarTrack {
   std::int64_t last_recorded_begin_ns_ = 0;  ///< Of the last scan that was handed on.
   bool stands_still_ = false;                ///< The last scan got its time because stamps do.
   ScanMemory memory_;
+  std::deque<ScanView> views_;  ///< Of the last three scans that were handed on.
+  std::int64_t exchanged_ = 0;
   std::vector<Judgement> judgements_;
   std::optional<Step> step_;
   std::optional<Apart> apart_;

@@ -7,27 +7,31 @@
 namespace trajlo {
 namespace {
 
-/// So many scans show the period, in spite of one with a wrong stamp.
+/// So many scans show the period, in spite of one with a wrong stamp; ...
 constexpr std::size_t kHeldAtStart = 5;
+/// ... but where no three of them come at an even pace, so many are awaited.
+constexpr std::size_t kMostHeldAtStart = 12;
 
 }  // namespace
 
 /// Nothing is handed on until two scans go on from each other.
 bool LidarTrack::Start(const Others& others, bool is_final) {
-  if (held_.size() < kHeldAtStart && !is_final) return false;
+  const std::vector<std::int64_t> even_ns = EvenPace();
+  const std::size_t needed = even_ns.empty() ? kMostHeldAtStart : kHeldAtStart;
+  if (held_.size() < needed && !is_final) return false;
   std::vector<std::int64_t> begins_ns, spans_ns;
   for (const HeldScan* held : held_) {
     begins_ns.push_back(held->times.begin_ns);
     spans_ns.push_back(held->times.end_ns - held->times.begin_ns);
   }
-  clock_.GuessPeriod(begins_ns, spans_ns);
+  clock_.GuessPeriod(even_ns.empty() ? begins_ns : even_ns, spans_ns);
   if (others.reference != nullptr && !FindOffset(others)) {
     while (!held_.empty()) Remove(held_.front(), ScanFate::kApart, 0);
     return true;
   }
   std::size_t first = FirstOfChain();
   if (first == held_.size()) {
-    if (held_.size() < kMostHeld && !is_final) return false;
+    if (held_.size() < kMostHeldAtStart && !is_final) return false;
     const bool all_equal = std::all_of(held_.begin(), held_.end(), [&](const HeldScan* held) {
       return held->times.begin_ns == begins_ns.front();
     });
@@ -39,6 +43,21 @@ bool LidarTrack::Start(const Others& others, bool is_final) {
   }
   HandOn(held_[first], ScanFate::kHandedOn, PlaceOf(*held_[first]));
   return true;
+}
+
+/// The times of three scans in a row that come at an even pace, if there are such.
+std::vector<std::int64_t> LidarTrack::EvenPace() const {
+  std::vector<std::int64_t> best;
+  for (std::size_t i = 2; i < held_.size(); ++i) {
+    const std::vector<std::int64_t> three = {
+        held_[i - 2]->times.begin_ns, held_[i - 1]->times.begin_ns, held_[i]->times.begin_ns};
+    const std::int64_t before_ns = Difference(three[1], three[0]);
+    const std::int64_t step_ns = Difference(three[2], three[1]);
+    if (step_ns <= 0 || Distance(step_ns, before_ns) >= step_ns / 4) continue;
+    // Where scans were lost, the shorter pace is the true one.
+    if (best.empty() || step_ns < Difference(best[1], best[0])) best = three;
+  }
+  return best;
 }
 
 /// Whether the times meet those of the first LiDAR, and if so, by which offset.

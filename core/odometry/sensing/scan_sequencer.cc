@@ -89,6 +89,7 @@ void ScanSequencer::Finish() {
     Judge(static_cast<std::size_t>(queue_.front()->held.scan.lidar_id), true);
   }
   CompareSpans();
+  for (const LidarTrack& track : tracks_) report_.exchanged += track.exchanged();
 }
 
 void ScanSequencer::Judge(std::size_t lidar, bool is_final) {

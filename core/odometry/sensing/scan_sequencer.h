@@ -20,7 +20,8 @@ namespace trajlo {
 /// is left out as long as that is so.
 ///
 /// A scan that simply goes on is handed on at once and as it is. At the start, five scans of a
-/// LiDAR are awaited; later at most eight are held, and those of other LiDARs that come meanwhile.
+/// LiDAR are awaited, or a few more if their stamps are odd; later at most eight are held, and
+/// those of other LiDARs that come meanwhile.
 class ScanSequencer {
  public:
   using HandOn = std::function<void(const LidarScan&)>;
@@ -31,6 +32,9 @@ class ScanSequencer {
   void Add(const LidarScan& scan);
   /// No further scans: all that are held are judged.
   void Finish();
+
+  /// A point of a scan that was handed on is of use.
+  void NoteUse() { report_.until_last_point = report_.scans; }
 
   const TimeReport& report() const { return report_; }
 

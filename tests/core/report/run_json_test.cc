@@ -49,7 +49,7 @@ RunSummary ExampleSummary() {
 
 TEST(RunSummary, ManyScansThatRepeatPointsAreMissingInput) {
   RunSummary s;
-  s.times.scans = 100;
+  s.times.scans = s.times.until_last_point = 100;
   s.times.stuck = 5;
   EXPECT_EQ(s.MissingInput(), "");
   EXPECT_THAT(s.OddStamps(), HasSubstr("5 dropped (the points of a scan before"));
@@ -75,9 +75,10 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.points.too_late = 20;
   s.points.wrong_time = 20;
   s.read.points_without_time = 10;
-  s.times.scans = 100;
-  s.times.assumed = 5;
-  s.times.retimed = 50;
+  s.times.scans = s.times.until_last_point = 100;
+  s.times.assumed = 3;
+  s.times.retimed = 2;
+  s.times.reordered = 50;
   EXPECT_EQ(s.MissingInput(), "");
   s.read.points_without_time = 11;
   EXPECT_EQ(
@@ -85,9 +86,19 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
       "5 % of the points were dropped because of their times (20 too late, 20 of wrong stamps, "
       "11 impossible)");
   s.points = {};
-  s.times.assumed = 6;
+  s.times.assumed = 4;
   EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are assumed");
   s.times.assumed = 0;
+  s.times.exchanged = 6;
+  EXPECT_EQ(s.MissingInput(), "6 of 100 scans seem to be out of order, by what they show");
+  s.times.exchanged = 5;
+  s.times.until_last_point = 95;
+  EXPECT_EQ(s.MissingInput(), "");
+  s.times.until_last_point = 94;
+  EXPECT_EQ(s.MissingInput(),
+            "the last 6 of 100 scans have no point that can be used: the trajectory ends before "
+            "them");
+  s.times.until_last_point = 100;
   s.read.file_is_cut = true;
   s.times.clocks_may_differ = true;
   EXPECT_EQ(s.MissingInput(),

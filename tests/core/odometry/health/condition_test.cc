@@ -41,6 +41,24 @@ TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
   EXPECT_FALSE(at(0.0, -1.05));
 }
 
+TEST(Belief, WhatPointsDidNotHoldIsTrustedAgainWhenAWindowHasSettled) {
+  unsigned lasting = 0;
+  const auto add = [&](unsigned flags, bool has_converged) {
+    WindowStatistics statistics;
+    statistics.flags = flags;
+    statistics.has_converged = has_converged;
+    return lasting = LastingFlags(lasting, statistics);
+  };
+  EXPECT_EQ(add(kFlagNotConverged, false), 0u);
+  EXPECT_EQ(add(kFlagDegenerate, true), +kFlagDegenerate);
+  EXPECT_EQ(add(kFlagNotConverged, false), +kFlagDegenerate);
+  EXPECT_EQ(add(kFlagNotConverged, false), +kFlagDegenerate);
+  EXPECT_EQ(add(0, true), 0u);
+  EXPECT_EQ(add(kFlagNotConverged, false), 0u);
+  EXPECT_EQ(add(kFlagNoPoints | kFlagReverted, false), kFlagNoPoints | kFlagReverted);
+  EXPECT_EQ(add(kFlagNotConverged, false), kFlagNoPoints | kFlagReverted);
+}
+
 TEST(Belief, ARevertedWindowForgetsItsRegistration) {
   Window window = testing::MakeTestWindow(3);
   const std::vector<SE3> start(5);
