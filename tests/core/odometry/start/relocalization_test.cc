@@ -14,12 +14,15 @@ namespace {
 using testing::Box;
 using testing::SyntheticWorld;
 
+/// Other noise than that of the map.
+constexpr int kSweep = 77;
+
 /// The world of one sweep, in a room with obstacles, of a sensor that moves by `tau` during it.
 SyntheticWorld WorldAt(const SE3& T_begin, const Vector6d& tau = Vector6d::Zero()) {
   SyntheticWorld world;
   world.beams = 16;
   world.columns = 120;
-  world.T_world_body = [=](double t) { return T_begin * se3::Exp(t / 0.1 * tau); };
+  world.T_world_body = [=](double t) { return T_begin * se3::Exp((t / 0.1 - kSweep) * tau); };
   return world;
 }
 
@@ -45,7 +48,7 @@ MapPyramid MapOf(const std::vector<Box>& boxes) {
 }
 
 SegmentCloud SweepOf(const SyntheticWorld& world) {
-  const LidarScan scan = world.Sweep(77);
+  const LidarScan scan = world.Sweep(kSweep);
   SegmentCloud sweep;
   sweep.begin_ns = scan.stamp_ns;
   sweep.end_ns = scan.stamp_ns + 100'000'000;
@@ -123,6 +126,20 @@ TEST(Relocalization, ASceneThatTheMapDoesNotHaveGivesNothing) {
   // Nor do a map and a sweep without points.
   EXPECT_FALSE(Find(SweepOf(elsewhere), MapPyramid({})));
   EXPECT_FALSE(Find(SegmentCloud(), map));
+}
+
+TEST(Relocalization, APlaceWhereTheMapHasNothingForMostPointsIsNotTaken) {
+  const MapPyramid map = MapOf(SyntheticWorld().boxes);
+  const auto finds_with_twentieths_above_the_ceiling = [&](std::size_t twentieths) {
+    SegmentCloud sweep = SweepOf(WorldAt(kPlaces[0]));
+    auto& points = sweep.registration_points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i % 20 < twentieths) points[i].p_body_m = {0.0F, 0.0F, 7.0F + points[i].p_body_m.norm()};
+    }
+    return Find(sweep, map).has_value();
+  };
+  EXPECT_TRUE(finds_with_twentieths_above_the_ceiling(7));
+  EXPECT_FALSE(finds_with_twentieths_above_the_ceiling(11));
 }
 
 TEST(Relocalization, APlaceBeyondTheRegionIsNotTaken) {
