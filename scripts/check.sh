@@ -2,42 +2,39 @@
 # SPDX-License-Identifier: MIT
 # Looks for faults without running anything.
 #   scripts/check.sh                  everything; hours of one core, nearly all for clang-tidy
-#   scripts/check.sh core/io apps     the slow part for these folders only
+#   scripts/check.sh core/io apps     the slow part for these folders or files only
 #   scripts/check.sh --fast           without the slow part: seconds
-#   scripts/check.sh --slice          what continuous integration does: clang's warnings for the
-#                                     method, clang-tidy for two factors and the headers they use
+#   scripts/check.sh --slice          what continuous integration does: the slow part for two factors
+#                                     and the headers they use
 # The fast part, for all files: clang-format, SPDX lines, shellcheck, flake8's errors.
-# The slow part: clang's warnings as errors (build-clang; those of g++ stop every build), clang-tidy.
+# The slow part: clang-tidy, which also gives clang's warnings. Those of g++ stop every build, and
+# clang's stop those of scripts/sanitize.sh asan.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build="${TRAJLO_BUILD_DIR:-build-clang}"
 jobs="${TRAJLO_JOBS:-$(nproc)}"
 
-warn_folders=(manifolds factors core apps tests)
-tidy_folders=("${warn_folders[@]}")
+to_tidy=(manifolds factors core apps tests)
 case "${1:-}" in
   -h | --help)
-    sed -n '3,10p' scripts/check.sh | sed 's/^# \{0,1\}//'
+    sed -n '3,11p' scripts/check.sh | sed 's/^# \{0,1\}//'
     exit 0
     ;;
   --fast)
-    warn_folders=()
-    tidy_folders=()
+    to_tidy=()
     ;;
   --slice)
-    warn_folders=(manifolds factors core/odometry)
-    tidy_folders=(factors/marginalization_prior.cc factors/point_to_plane.cc)
+    to_tidy=(factors/marginalization_prior.cc factors/point_to_plane.cc)
     ;;
   -*)
     echo "check.sh: $1 is no option; see --help" >&2
     exit 1
     ;;
   ?*)
-    for folder in "$@"; do
-      [[ -d "$folder" ]] || { echo "check.sh: there is no folder $folder" >&2; exit 1; }
+    for name in "$@"; do
+      [[ -e "$name" ]] || { echo "check.sh: there is no $name" >&2; exit 1; }
     done
-    warn_folders=("${@%/}")
-    tidy_folders=("${@%/}")
+    to_tidy=("${@%/}")
     ;;
 esac
 
@@ -84,10 +81,15 @@ shell() { with_interpreter bash | xargs shellcheck; }
 # Names that do not exist, are not used, or are defined twice; style is not its business.
 python() { python_files | xargs flake8 --select=E9,F; }
 
-warnings() { cmake --build "$build" --parallel "$jobs" --target "${warn_folders[@]/%//all}" -- -k 0; }
+# Those below files and folders that this machine compiles; a user's project (tests/consumer) is none.
+compiled() {
+  find "$@" -name '*.cc' | sort | while read -r file; do
+    if grep -qF "\"file\": \"$PWD/$file\"" "$build/compile_commands.json"; then echo "$file"; fi
+  done
+}
 tidy() {
-  find "${tidy_folders[@]}" -name '*.cc' -not -path '*/fixtures/*' -print0 |
-    xargs -0 -n 1 -P "$jobs" clang-tidy-14 -p "$build" --quiet --warnings-as-errors='*' 2>&1 |
+  compiled "${to_tidy[@]}" |
+    xargs -n 1 -P "$jobs" clang-tidy-14 -p "$build" --quiet --warnings-as-errors='*' 2>&1 |
     grep -v 'warnings generated\.$'
   [[ "${PIPESTATUS[1]}" -eq 0 ]]
 }
@@ -96,9 +98,10 @@ check clang-format format
 check SPDX spdx
 check shellcheck shell
 check flake8 python
-if [[ ${#warn_folders[@]} -gt 0 ]]; then
+if [[ ${#to_tidy[@]} -gt 0 ]]; then
+  # Only the commands of compilation are needed, and the one header that a build writes.
   cmake --preset clang -B "$build" >/dev/null
-  check "clang's warnings: ${warn_folders[*]}" warnings
-  check "clang-tidy: ${tidy_folders[*]}" tidy
+  cmake --build "$build" --target trajlo_git_version >/dev/null
+  check "clang-tidy: ${to_tidy[*]}" tidy
 fi
 [[ ${#failed[@]} -eq 0 ]]

@@ -2,21 +2,22 @@
 # SPDX-License-Identifier: MIT
 # Prints file by file which share of the lines of manifolds, factors and core/odometry their own tests
 # run, and which lines none runs; ends with 1 where a layer is below 90 %. Builds in build-coverage.
-# The golden trajectories do not count: they run nearly every line, and would hide what has no test.
+# Simulated recordings (golden trajectories, pauses) do not count: they run nearly every line, and
+# would hide what has no test.
 set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 cd "$root"
 build="${TRAJLO_BUILD_DIR:-$root/build-coverage}"
 jobs="${TRAJLO_JOBS:-$(nproc)}"
 if [[ $# -gt 0 ]]; then
-  sed -n '3,5p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
+  sed -n '3,6p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
   [[ "$1" == -h || "$1" == --help ]] && exit 0
   exit 1
 fi
 layers=(manifolds factors core/odometry)
 
-mapfile -t tests < <(grep -rhoP '^trajlo_test\(\K\w+' "${layers[@]/#/tests/}" --include=CMakeLists.txt |
-  grep -v '^golden_trajectory_test$')
+mapfile -t tests < <(find "${layers[@]/#/tests/}" -name '*_test.cc' -exec basename -s .cc {} + |
+  grep -vE '^(golden_trajectory|pauses)_test$' | sort)
 cmake --preset coverage -B "$build" >/dev/null
 cmake --build "$build" --parallel "$jobs" --target "${tests[@]}"
 # Counts of an earlier call would be added.

@@ -55,7 +55,7 @@ cmake --build "$build" --parallel "${TRAJLO_JOBS:-$(nproc)}" --target "${targets
 [[ -w /dev/shm ]] && export TMPDIR="${TMPDIR:-/dev/shm}"
 # A program that reads broken files must not believe the sizes in them. The seconds are those of a
 # clock: a busy machine must not look like an endless loop.
-limits=(-rss_limit_mb=2048 -malloc_limit_mb=1024 -timeout=120)
+limits=(-rss_limit_mb=2048 -malloc_limit_mb=1024 -timeout=1200)
 
 # seed TARGET: the inputs of the tests begin the corpus; those of one name keep their folder's.
 seed() {
@@ -79,8 +79,8 @@ fuzz() {
       -max_total_time=$((60 * minutes - used + 1)) -artifact_prefix="$findings/" \
       "$corpus" >"$log" 2>&1 || result=FOUND; } 2>"$log.time"
     read -r -a took <"$log.time"
-    used="$(awk -v used="$used" -v user="${took[0]}" -v system="${took[1]}" \
-      'BEGIN {print int(used + user + system + 1)}')"
+    used="$(awk -v used="$used" -v user="${took[0]}" -v kernel="${took[1]}" \
+      'BEGIN {print int(used + user + kernel + 1)}')"
     inputs=$((inputs + $(awk '/stat::number_of_executed_units/ {n = $2} END {print n + 0}' "$log")))
   done
   printf '%-16s %-5s  %4d s of a core  %9d inputs  %5d kept  %s\n' "$target" "$result" "$used" \

@@ -25,6 +25,25 @@ TEST(WindowCondition, NamesTheDirectionThatNoPlaneHolds) {
   EXPECT_NEAR(std::abs(condition.weak_direction[0]), 1.0, 1e-6);
 }
 
+TEST(WindowCondition, WithoutPointsOrLeverArmNothingIsHeldAndAllIsFinite) {
+  const auto expect_nothing = [](const Window& window) {
+    const WindowCondition condition = ConditionOf(window, 10.0);
+    EXPECT_EQ(condition.smallest_eigenvalue, 0.0);
+    EXPECT_TRUE(condition.weak_direction.allFinite());
+  };
+  // No points at all, and points that are not registered.
+  expect_nothing(testing::MakeTestWindow(18, 0));
+  expect_nothing(testing::MakeTestWindow(18));
+  // All points lie in the sensor's origin: nothing holds the rotations.
+  Window window = testing::MakeTestWindow(18);
+  window.SetPoses(std::vector<SE3>(5));
+  for (Segment& segment : window.segments) {
+    for (RegistrationPoint& point : segment.points) point.p_body_m.setZero();
+    segment.registration = LinearizeSegment(segment.points, SE3(), SE3(), window.noise);
+  }
+  expect_nothing(window);
+}
+
 TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
   const SE3 predicted = se3::Exp(Vector6d::Constant(0.7));
   const auto at = [&](double x_m, double yaw_rad) {

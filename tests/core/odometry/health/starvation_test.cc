@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "tests/support/random_poses.h"
+
 namespace trajlo {
 namespace {
 
@@ -48,6 +52,26 @@ TEST(Starvation, TheWatchIsBlindWhenThePredictionIsTooUncertainToStartFrom) {
   // Three standard deviations are a metre where t³ = 1 / 9 s³.
   EXPECT_FALSE(watch.IsBlind(1'475'000'000, density));
   EXPECT_TRUE(watch.IsBlind(1'485'000'000, density));
+  // And 0.45 rad of a body that turns fast where t³ = 3 / 4 0.15² s³.
+  density << 0.1, 0.1, 0.1, 4, 4, 4;
+  EXPECT_FALSE(watch.IsBlind(1'250'000'000, density));
+  EXPECT_TRUE(watch.IsBlind(1'260'000'000, density));
+}
+
+TEST(UnseenSigma, IsThatOfWhiteNoiseIntegratedTwice) {
+  testing::Random random(3);
+  constexpr int kSteps = 200, kTrials = 2000;
+  constexpr double kDensity = 2.5, kDuration_s = 1.7, kStep_s = kDuration_s / kSteps;
+  double sum_of_squares = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    double velocity = 0.0, position = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      position += kStep_s * velocity;
+      velocity += random.Gaussian(std::sqrt(kDensity * kStep_s));
+    }
+    sum_of_squares += position * position;
+  }
+  EXPECT_NEAR(std::sqrt(sum_of_squares / kTrials) / UnseenSigma(kDensity, kDuration_s), 1.0, 0.06);
 }
 
 }  // namespace

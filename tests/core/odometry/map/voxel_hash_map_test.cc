@@ -157,14 +157,62 @@ TEST(VoxelHashMap, StaysAsSmallAsItsSurroundingsOnALongWay) {
 }
 
 TEST(VoxelHashMap, IsPreciseAMillionMetresFromTheOrigin) {
+  // Voxels whose corners are no numbers of single precision there, and neighbours in all seven.
   const Eigen::Vector3d far(1e6, -1e6, 1e6);
-  VoxelHashMap map = MakeMap(0.2, 0.0);
-  map.Insert({far + Eigen::Vector3d(0.01, 0.02, 0.03), far + Eigen::Vector3d(0.05, 0.02, 0.03)});
+  constexpr double kVoxel = 0.3;
+  VoxelHashMap map = MakeMap(kVoxel, 0.0);
+  std::vector<Eigen::Vector3d> added;
+  map.Insert(RandomPoints(3000, 1.0, far, 21), &added);
+  const std::vector<Eigen::Vector3d> stored = Stored(map);
+  for (const Eigen::Vector3d& p : stored) {
+    double nearest = 1.0;
+    for (const Eigen::Vector3d& q : added) nearest = std::min(nearest, (p - q).norm());
+    EXPECT_LT(nearest, 1e-7);
+  }
+  for (const auto& query : RandomPoints(200, 0.9, far, 22)) {
+    Neighbors found;
+    map.Nearest(query, 20, &found);
+    const auto expected = SevenVoxelDistances(map, query, kVoxel, 20);
+    ASSERT_EQ(found.count, static_cast<int>(expected.size()));
+    for (int i = 0; i < found.count; ++i) {
+      EXPECT_NEAR(std::sqrt(found.squared_distance[i]), expected[i], 1e-6);
+    }
+  }
+}
+
+TEST(VoxelHashMap, OfEquallyNearPointsTheOwnVoxelsComeFirstInTheOrderOfInsertion) {
+  // Distances that are exact in single precision.
+  VoxelHashMap map = MakeMap(1.0, 0.0);
+  const Eigen::Vector3d query(0.5, 0.5, 0.5);
+  const std::vector<Eigen::Vector3d> offsets = {{1, 0, 0},     {-0.25, 0, 0}, {0, 0.25, 0},
+                                                {0, -1, 0},    {0, 0, -0.25}, {0.25, 0, 0},
+                                                {0, -0.25, 0}, {0, 0, 0.25}};
+  for (const Eigen::Vector3d& offset : offsets) map.Insert({query + offset});
+  const auto nearest = [&](int k) {
+    Neighbors found;
+    map.Nearest(query, k, &found);
+    std::vector<Eigen::Vector3d> result;
+    for (int i = 0; i < found.count; ++i) {
+      result.push_back(found.origin_world + Eigen::Vector3d(found.x[i], found.y[i], found.z[i]) -
+                       query);
+    }
+    return result;
+  };
+  EXPECT_EQ(nearest(3), (std::vector<Eigen::Vector3d>{offsets[1], offsets[2], offsets[4]}));
+  const auto all = nearest(8);
+  ASSERT_EQ(all.size(), 8u);
+  EXPECT_EQ(all[4], offsets[6]);
+  EXPECT_EQ(all[5], offsets[7]);
+  // Then those of the neighbours, in the order of the faces.
+  EXPECT_EQ(all[6], offsets[0]);
+  EXPECT_EQ(all[7], offsets[3]);
+
+  // Between two voxels.
+  map.Insert({{5.0, 0.5, 0.5}, {4.75, 0.5, 0.5}});
   Neighbors found;
-  map.Nearest(far + Eigen::Vector3d(0.02, 0.02, 0.03), 5, &found);
-  ASSERT_EQ(found.count, 2);
-  EXPECT_NEAR(std::sqrt(found.squared_distance[0]), 0.01, 1e-6);
-  EXPECT_NEAR(std::sqrt(found.squared_distance[1]), 0.03, 1e-6);
+  map.Nearest({4.875, 0.5, 0.5}, 1, &found);
+  ASSERT_EQ(found.count, 1);
+  EXPECT_EQ(found.origin_world.x() + found.x[0], 4.75);
 }
 
 TEST(VoxelHashMap, SurvivesPointsThatRanAway) {

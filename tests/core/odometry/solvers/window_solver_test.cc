@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/odometry/window/marginalize.h"
 #include "core/odometry/window/registration_evaluator.h"
 #include "tests/support/test_window.h"
@@ -122,6 +124,23 @@ TEST(WindowSolver, ASegmentWithoutPointsKeepsTheVelocityOfTheOneBefore) {
     ThreadPool threads(1);
     EXPECT_TRUE(MakeWindowSolver(Converging(kind), &threads)->Solve(&window).finite);
     EXPECT_LT((window.Velocity(3) - window.Velocity(2)).norm(), 1e-6);
+  }
+}
+
+TEST(WindowSolver, WhatIsNotFiniteLeavesThePosesAndSaysSo) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (SolverKind kind : {SolverKind::kGaussNewton, SolverKind::kCeres}) {
+    for (int iterations : {1, 4}) {
+      Window window = MakeTestWindow(16);
+      window.segments[2].points[7].normal_world.y() = kNan;
+      const std::vector<SE3> start = window.Poses();
+      SolverOptions options = Converging(kind);
+      options.iterations_per_round = iterations;
+      ThreadPool threads(1);
+      EXPECT_FALSE(MakeWindowSolver(options, &threads)->Solve(&window).finite);
+      EXPECT_LT(LargestDifference(window.Poses(), start), 1e-15);
+      for (const SE3& pose : window.Poses()) EXPECT_TRUE(pose.IsFinite());
+    }
   }
 }
 
