@@ -15,7 +15,7 @@ struct RegistrationPoint {
   double offset_m = 0.0;         ///< d.
   double weight = 1.0;           ///< Relative information of the association, in (0, 1].
   /// By how much the noise of its map points tilts the plane: the variance of n in every direction
-  /// within the plane (rad²).
+  /// within the plane (rad²). Infinite: the plane may be no surface at all.
   double normal_variance_rad2 = 0.0;
 
   /// nᵀx - d, metres, of the point at `x_world`.

@@ -302,7 +302,7 @@ void Odometry::SettleFront() {
 void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
   trajectory_.Append(pose);
   attitude_.Add(pose.T_world_body.q);
-  if (on_pose_) on_pose_(pose, CalibratedCovariance(covariance, motion_prior_.surprise()));
+  if (on_pose_) on_pose_(pose, motion_prior_.covariance_scale() * covariance);
 }
 
 void Odometry::AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end) {

@@ -4,16 +4,19 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trajlo {
 namespace {
 
 constexpr double kSigmas = 3.0;
+/// The eigenvectors that may be the weakest direction once the differences between places count.
+constexpr int kCandidates = 3;
 
 /// H and F of a rigid motion of the window, in the frame of its newest pose.
 struct RigidInformation {
   Matrix6d H = Matrix6d::Zero();
-  FeignedInformation feigned;
+  FeignedInformation feigned;  ///< Its sums; the groups stay with the segments.
   double points = 0.0;
 
   explicit RigidInformation(const Window& window) {
@@ -26,6 +29,7 @@ struct RigidInformation {
           se3::Adjoint(window.Pose(k + 1).Inverse() * newest);
       H += A.transpose() * segment.registration.H * A;
       const Matrix6d A_end = A.bottomRows<6>();
+      H -= A_end.transpose() * segment.feigned.no_surface * A_end;
       feigned.mean += A_end.transpose() * segment.feigned.mean * A_end;
       feigned.sum += segment.feigned.sum;
       feigned.sum_of_squares += segment.feigned.sum_of_squares;
@@ -39,6 +43,21 @@ double LargestFeigned(const FeignedInformation& feigned, double points_per_error
   if (!(feigned.sum > 0.0)) return 1.0;
   const double count = feigned.sum * feigned.sum / (points_per_error * feigned.sum_of_squares);
   return 1.0 + kSigmas * std::sqrt(2.0 / count);
+}
+
+/// s(u): how much the information about u, a rigid motion in the frame of the newest pose, would
+/// differ with other places.
+double SpreadOverPlaces(const Window& window, const Vector6d& u) {
+  constexpr int kGroups = FeignedInformation::kGroups;
+  Eigen::Array<double, kGroups, 1> sums = Eigen::Array<double, kGroups, 1>::Zero();
+  const SE3& newest = window.Pose(window.size());
+  for (const Segment& segment : window.segments) {
+    const Vector6d u_end = se3::Adjoint(segment.T_world_end.Inverse() * newest) * u;
+    for (int i = 0; i < kGroups; ++i) {
+      sums[i] += segment.feigned.by_place[static_cast<std::size_t>(i)].Along(u_end);
+    }
+  }
+  return std::sqrt((sums - sums.mean()).square().sum() * kGroups / (kGroups - 1.0));
 }
 
 }  // namespace
@@ -55,9 +74,17 @@ WindowCondition ConditionOf(const Window& window, double points_per_error) {
                                                information.feigned.mean;
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaling.asDiagonal() * certain *
                                                       scaling.asDiagonal());
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kCandidates; ++i) {
+    const Vector6d direction = eigen.eigenvectors().col(i);
+    const double spread = SpreadOverPlaces(window, scaling.cwiseProduct(direction));
+    const double sure = eigen.eigenvalues()[i] - kSigmas * spread;
+    if (sure >= least) continue;
+    least = sure;
+    condition.weak_direction = direction;
+  }
   const double left_over = 1.0 - 6.0 * points_per_error / information.points;
-  condition.smallest_eigenvalue = std::max(0.0, left_over) * std::max(0.0, eigen.eigenvalues()[0]);
-  condition.weak_direction = eigen.eigenvectors().col(0);
+  condition.smallest_eigenvalue = std::max(0.0, left_over) * std::max(0.0, least);
   return condition;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -123,7 +124,8 @@ void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane*
     plane.normal_world = query.plane.normal_world.cast<double>();
     plane.offset_m = plane.normal_world.dot(query.center_world) + query.plane.offset_m;
     plane.scale = std::ldexp(1.0, query.level);
-    plane.normal_variance_rad2 = query.plane.normal_variance_rad2;
+    plane.normal_variance_rad2 = query.is_grazed ? std::numeric_limits<double>::infinity()
+                                                 : query.plane.normal_variance_rad2;
     const double relative = query.plane.thickness_m / PlaneFitOptions::kHalfWeightThickness_m;
     plane.weight = 1.0 / ((1.0 + relative * relative) * (query.is_wide ? 1.0 : plane.scale));
   }

@@ -37,7 +37,7 @@ struct Plane {
   double weight = 0.0;
   /// Voxels of the level it comes from, in those of the finest.
   double scale = 1.0;
-  /// See FittedPlane.
+  /// See FittedPlane; infinite where the ray merely grazes the plane, which may be no surface.
   double normal_variance_rad2 = 0.0;
 
   bool exists() const { return weight > 0.0; }

@@ -26,6 +26,16 @@ SmoothnessTerm PseudoVelocity(const Window& window, int k, const Vector6d& densi
   return {window.Velocity(k - 1) * duration_s, velocity.sqrt_information / duration_s};
 }
 
+/// `factor` times the mean square of three components, weighted by what the points tell; 1, which
+/// changes nothing, where they tell nothing.
+double MeanSquare(double factor, const Vector6d& values, const Innovation& innovation,
+                  int first_component) {
+  Eigen::Vector3d w = innovation.gain.segment<3>(first_component);
+  w = w.unaryExpr([](double gain) { return gain > kSmallestGain ? gain : 0.0; });
+  if (!(w.sum() > 0.0)) return 1.0;
+  return factor * w.dot(values.segment<3>(first_component).cwiseAbs2()) / w.sum();
+}
+
 }  // namespace
 
 MotionPrior::MotionPrior(const MotionPriorOptions& options) : options_(options) {
@@ -48,31 +58,23 @@ void MotionPrior::Apply(Window* window) const {
 
 void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
   const double decay = std::exp(-duration_s / kSumMemory_s);
+  Vector6d z = Vector6d::Zero();
   for (int i = 0; i < 6; ++i) {
-    sum_[i] *= decay;
     if (!(innovation.gain[i] > kSmallestGain)) continue;
-    sum_[i] += innovation.correction[i] / std::sqrt(innovation.expected_variance[i]);
+    z[i] = innovation.correction[i] / std::sqrt(innovation.expected_variance[i]);
   }
+  sum_ = decay * sum_ + z;
   const double floor[2] = {options_.min_translation_m2_s3, options_.min_rotation_rad2_s3};
   const double share = 1.0 - std::exp(-duration_s / kLearning_s);
   for (int part = 0; part < 2; ++part) {
-    const double surprise = Surprise(innovation, 3 * part, decay);
+    const double surprise = MeanSquare(1.0 - decay * decay, sum_, innovation, 3 * part);
     surprise_[part] += share * (surprise - surprise_[part]);
+    scatter_[part] += share * (MeanSquare(1.0, z, innovation, 3 * part) - scatter_[part]);
     if (!options_.self_tuning) continue;
     const double score = std::min(surprise - 1.0, kLargestScore);
     const double density = density_[3 * part] * std::exp(score * duration_s / kLearning_s);
     density_.segment<3>(3 * part).setConstant(std::clamp(density, floor[part], kLargestDensity));
   }
-}
-
-/// u; 1, which changes nothing, where the points tell nothing.
-double MotionPrior::Surprise(const Innovation& innovation, int first_component,
-                             double decay) const {
-  const Eigen::Vector3d s = sum_.segment<3>(first_component);
-  Eigen::Vector3d w = innovation.gain.segment<3>(first_component);
-  w = w.unaryExpr([](double gain) { return gain > kSmallestGain ? gain : 0.0; });
-  if (!(w.sum() > 0.0)) return 1.0;
-  return (1.0 - decay * decay) * w.dot(s.cwiseAbs2()) / w.sum();
 }
 
 }  // namespace trajlo

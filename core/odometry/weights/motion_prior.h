@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "core/odometry/weights/innovation.h"
 #include "core/odometry/window/window.h"
 #include "core/options/describe.h"
@@ -69,9 +71,16 @@ class MotionPrior {
   /// [rho; theta]: m²/s³ and rad²/s³.
   const Vector6d& density() const { return density_; }
 
-  /// u of translation and of rotation, in the mean over T_l; 1 before there is evidence.
-  /// Corrections are so many times as large as the covariances of the window expect.
-  const Eigen::Vector2d& surprise() const { return surprise_; }
+  /// The factor between the squared errors of the poses and the covariances of their windows, in
+  /// the mean over T_l; 1 before there is evidence.
+  ///
+  /// The noise of the points is set on the safe side, the motion is calmer than q at rest and at
+  /// times wilder, and errors of planes move the map and the poses alike: so covariances are off by
+  /// a factor, and corrections are off by the same one. It has two estimates, each too large for a
+  /// reason of its own. The mean of z² counts noise that later segments average out before the pose
+  /// leaves the window. The mean of u sums up over T_s, in which such noise cancels, but counts the
+  /// lag of the prediction, which the points have taken away. The smaller one is taken.
+  double covariance_scale() const { return std::min(surprise_.mean(), scatter_.mean()); }
 
   /// Ties the velocities of the segments by the present densities.
   void Apply(Window* window) const;
@@ -81,12 +90,12 @@ class MotionPrior {
   void Learn(const Innovation& innovation, double duration_s);
 
  private:
-  double Surprise(const Innovation& innovation, int first_component, double decay) const;
-
   MotionPriorOptions options_;
   Vector6d density_;
   Vector6d sum_ = Vector6d::Zero();  ///< s
+  /// u and z² of translation and of rotation, in the mean over T_l.
   Eigen::Vector2d surprise_ = Eigen::Vector2d::Ones();
+  Eigen::Vector2d scatter_ = Eigen::Vector2d::Ones();
 };
 
 }  // namespace trajlo

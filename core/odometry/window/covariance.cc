@@ -2,7 +2,6 @@
 #include "core/odometry/window/covariance.h"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 #include <limits>
 
 namespace trajlo {
@@ -17,14 +16,6 @@ Matrix6d PoseCovariance(const WindowNormalEquations& window, int k) {
   unit.middleRows<6>(6 * k).setIdentity();
   const Matrix6d covariance = ldlt.solve(unit).middleRows<6>(6 * k);
   return 0.5 * (covariance + covariance.transpose());
-}
-
-Matrix6d CalibratedCovariance(const Matrix6d& covariance, const Eigen::Vector2d& scale) {
-  Vector6d factors;
-  factors << Eigen::Vector3d::Constant(std::sqrt(scale[0])),
-      Eigen::Vector3d::Constant(std::sqrt(scale[1]));
-  // The outer product is symmetric to the last bit.
-  return covariance.cwiseProduct(factors * factors.transpose());
 }
 
 }  // namespace trajlo

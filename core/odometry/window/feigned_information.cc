@@ -1,9 +1,72 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window/feigned_information.h"
 
+#include <cmath>
+#include <cstdint>
+
+#include "core/odometry/map/voxel_index.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
+namespace {
+
+/// The edge of a place: planes that are nearer to each other are fitted to points in common.
+constexpr double kPlace_m = 0.5;
+
+/// Which group the place of a point belongs to, as if by chance.
+std::size_t GroupOf(const Eigen::Vector3d& x_world) {
+  const VoxelKey place = VoxelAt(x_world, 1.0 / kPlace_m);
+  std::uint64_t hash = 0;
+  for (const int coordinate : {place.x(), place.y(), place.z()}) {
+    hash = (hash ^ static_cast<std::uint32_t>(coordinate)) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 32;
+  }
+  return hash % FeignedInformation::kGroups;
+}
+
+/// sum a_i G_i G_iᵀ from the sums of a_i, a_i x_i and a_i x_i x_iᵀ.
+Matrix6d IsotropicSum(double sum, const Eigen::Vector3d& first, const Eigen::Matrix3d& second) {
+  Matrix6d result;
+  result.topLeftCorner<3, 3>() = sum * Eigen::Matrix3d::Identity();
+  result.bottomLeftCorner<3, 3>() = so3::Hat(first);
+  result.topRightCorner<3, 3>() = so3::Hat(first).transpose();
+  result.bottomRightCorner<3, 3>() = second.trace() * Eigen::Matrix3d::Identity() - second;
+  return result;
+}
+
+}  // namespace
+
+OuterSum::Product OuterSum::ProductOf(const Vector6d& j) {
+  Product product;
+  std::size_t i = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) product[i++] = j[row] * j[column];
+  }
+  return product;
+}
+
+double OuterSum::Along(const Vector6d& u) const {
+  const Product product = ProductOf(u);
+  double sum = 0.0;
+  std::size_t i = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column, ++i) {
+      sum += (column == row ? 1.0 : 2.0) * upper_[i] * product[i];
+    }
+  }
+  return sum;
+}
+
+Matrix6d OuterSum::Matrix() const {
+  Matrix6d matrix;
+  std::size_t i = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      matrix(row, column) = matrix(column, row) = upper_[i++];
+    }
+  }
+  return matrix;
+}
 
 FeignedInformation FeignedBy(const std::vector<RegistrationPoint>& points, const SE3& T_begin,
                              const SE3& T_end, const RegistrationNoise& noise) {
@@ -14,29 +77,31 @@ FeignedInformation FeignedBy(const std::vector<RegistrationPoint>& points, const
   FeignedInformation feigned;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  Matrix6d along_normals = Matrix6d::Zero();
+  OuterSum along_normals, no_surface;
   for (const RegistrationPoint& point : points) {
     const Eigen::Vector3d x_world = motion.ToWorld(point.alpha, point.p_body_m);
     const double r = point.normal_world.dot(x_world) - point.offset_m;
     const double weight = point.weight * information;
-    const double a = weight * noise.kernel.Weight(weight * r * r) * point.normal_variance_rad2;
+    const double w = weight * noise.kernel.Weight(weight * r * r);
     const Eigen::Vector3d x = R_end_world * x_world + T_end_world.t;
     const Eigen::Vector3d n = R_end_world * point.normal_world;
     Vector6d j;
     j << n, x.cross(n);
-    along_normals.noalias() += a * j * j.transpose();
+    const OuterSum::Product product = OuterSum::ProductOf(j);
+    if (std::isinf(point.normal_variance_rad2)) {
+      no_surface.Add(w, product);
+      continue;
+    }
+    const double a = w * point.normal_variance_rad2;
+    feigned.by_place[GroupOf(x_world)].Add(w, product);
+    along_normals.Add(a, product);
     first += a * x;
     second.noalias() += a * x * x.transpose();
     feigned.sum += a;
     feigned.sum_of_squares += a * a;
   }
-  // sum_i a_i G_i G_iᵀ
-  feigned.mean.topLeftCorner<3, 3>().setIdentity();
-  feigned.mean.topLeftCorner<3, 3>() *= feigned.sum;
-  feigned.mean.bottomLeftCorner<3, 3>() = so3::Hat(first);
-  feigned.mean.topRightCorner<3, 3>() = so3::Hat(first).transpose();
-  feigned.mean.bottomRightCorner<3, 3>() = second.trace() * Eigen::Matrix3d::Identity() - second;
-  feigned.mean -= along_normals;
+  feigned.mean = IsotropicSum(feigned.sum, first, second) - along_normals.Matrix();
+  feigned.no_surface = no_surface.Matrix();
   return feigned;
 }
 

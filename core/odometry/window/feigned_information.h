@@ -1,12 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "factors/registration_point.h"
 #include "factors/segment_registration.h"
 
 namespace trajlo {
+
+/// A sum of outer products j jᵀ, by its upper triangle.
+class OuterSum {
+ public:
+  static constexpr int kSize = 21;
+  using Product = std::array<double, kSize>;
+
+  static Product ProductOf(const Vector6d& j);
+  void Add(double weight, const Product& product) {
+    for (int i = 0; i < kSize; ++i) upper_[Index(i)] += weight * product[Index(i)];
+  }
+  /// uᵀ (sum) u
+  double Along(const Vector6d& u) const;
+  Matrix6d Matrix() const;
+
+ private:
+  static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
+  Product upper_{};
+};
 
 /// The information that points seem to give because the normals of their planes are noisy.
 ///
@@ -25,6 +45,14 @@ struct FeignedInformation {
   /// independent, what is really feigned differs from its mean by the share sqrt(2 / N).
   double sum = 0.0;
   double sum_of_squares = 0.0;
+
+  /// What points tell where v_i is infinite, sum w_i j_i j_iᵀ: all of it may be feigned. One scan
+  /// line round a corner makes a perfect plane, which is no surface.
+  Matrix6d no_surface = Matrix6d::Zero();
+  /// What the others tell, dealt into groups by where they lie: points of one place, which share
+  /// planes, are always in the same group. See ConditionOf.
+  static constexpr int kGroups = 16;
+  std::array<OuterSum, kGroups> by_place;
 };
 
 /// Of the points of one segment.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "core/odometry/solvers/window_solver.h"
 #include "tests/support/test_window.h"
 
@@ -112,6 +114,28 @@ TEST(MotionPrior, LearnsNothingWhereThePointsTellNothing) {
   innovation.gain = Vector6d::Zero();
   for (int i = 0; i < 10; ++i) prior.Learn(innovation, 0.03);
   EXPECT_EQ(prior.density(), before);
+}
+
+/// The scale after three seconds of corrections whose normalised values are z(i).
+double CovarianceScale(const std::function<double(int)>& z) {
+  MotionPrior prior({});
+  Innovation innovation;
+  innovation.expected_variance = Vector6d::Constant(4e-6);
+  innovation.gain = Vector6d::Constant(0.5);
+  for (int i = 0; i < 100; ++i) {
+    innovation.correction = Vector6d::Constant(2e-3 * z(i));
+    prior.Learn(innovation, 0.03);
+  }
+  return prior.covariance_scale();
+}
+
+TEST(MotionPrior, TheScaleOfCovariancesCountsNeitherNoiseThatCancelsNorLag) {
+  EXPECT_EQ(MotionPrior({}).covariance_scale(), 1.0);
+  EXPECT_NEAR(CovarianceScale([](int) { return 0.0; }), 0.0, 1e-3);
+  // A lag of half a standard deviation adds up in the sum, not in the single correction.
+  EXPECT_NEAR(CovarianceScale([](int) { return 0.5; }), 0.25, 0.01);
+  // Noise that alternates cancels in the sum.
+  EXPECT_NEAR(CovarianceScale([](int i) { return i % 2 == 0 ? 1.0 : -1.0; }), 0.15, 0.02);
 }
 
 TEST(MotionPrior, StaysAsItIsWithoutSelfTuning) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/odometry/health/condition.h"
 #include "tests/support/random_poses.h"
 
@@ -92,6 +94,63 @@ TEST(FeignedInformation, ACorridorOfNoisyNormalsTellsNothingAndARoomDoes) {
     const Window room = WindowOf(NoisyPoints(&random, 1000, true, 0.15));
     EXPECT_GT(ConditionOf(room, 10.0).smallest_eigenvalue, 1.0 / (0.02 * 0.02));
   }
+}
+
+/// A corridor along x with exact normals, and `count` points on walls across it, all on the same
+/// place or each on one of its own.
+std::vector<RegistrationPoint> CorridorWithEndWall(Random* random, int count, double spread_m) {
+  std::vector<RegistrationPoint> points = NoisyPoints(random, 1000, false, 1e-6);
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d p(8.0, random->Uniform(-1, 1) * spread_m,
+                            random->Uniform(-1, 1) * spread_m);
+    points.push_back({p, 1.0, Eigen::Vector3d::UnitX(), p.x(), 1.0, 1e-6});
+  }
+  return points;
+}
+
+TEST(FeignedInformation, WhatHangsOnFewPlacesMayBeFalse) {
+  Random random(7);
+  // A point alone tells 10 cm (1/m²: 100). Four hundred on one place may be one mistake.
+  EXPECT_LT(ConditionOf(WindowOf(CorridorWithEndWall(&random, 5, 1.5)), 10.0).smallest_eigenvalue,
+            100.0);
+  const WindowCondition on_one_place =
+      ConditionOf(WindowOf(CorridorWithEndWall(&random, 400, 0.1)), 10.0);
+  EXPECT_EQ(on_one_place.smallest_eigenvalue, 0.0);
+  EXPECT_GT(std::abs(on_one_place.weak_direction[0]), 0.9);
+  EXPECT_GT(ConditionOf(WindowOf(CorridorWithEndWall(&random, 400, 3.0)), 10.0).smallest_eigenvalue,
+            1e4);
+}
+
+TEST(FeignedInformation, APlaneThatMayBeNoSurfaceTellsNothing) {
+  Random random(8);
+  std::vector<RegistrationPoint> points = CorridorWithEndWall(&random, 400, 3.0);
+  for (RegistrationPoint& point : points) {
+    if (point.normal_world.x() == 1.0) {
+      point.normal_variance_rad2 = std::numeric_limits<double>::infinity();
+    }
+  }
+  const WindowCondition condition = ConditionOf(WindowOf(points), 10.0);
+  EXPECT_LT(condition.smallest_eigenvalue, 1e-3);
+  EXPECT_GT(std::abs(condition.weak_direction[0]), 0.9);
+}
+
+TEST(FeignedInformation, GroupsOfPlacesAddUpToTheInformation) {
+  Random random(9);
+  const RegistrationNoise noise = {0.05, {KernelKind::kCauchy, 1.0}};
+  const SE3 T_begin = random.Pose();
+  const SE3 T_end = Plus(T_begin, random.Tangent(0.3, 0.2));
+  const std::vector<RegistrationPoint> points = NoisyPoints(&random, 500, true, 0.1);
+  const FeignedInformation feigned = FeignedBy(points, T_begin, T_end, noise);
+  const Matrix6d H = RigidH(points, T_begin, T_end, noise);
+  const Vector6d u = random.Tangent(1.0, 1.0);
+  Matrix6d sum = Matrix6d::Zero();
+  double along = 0.0;
+  for (const OuterSum& group : feigned.by_place) {
+    sum += group.Matrix();
+    along += group.Along(u);
+  }
+  EXPECT_LT((sum - H).norm(), 1e-9 * H.norm());
+  EXPECT_NEAR(along, u.dot(H * u), 1e-9 * along);
 }
 
 TEST(FeignedInformation, AsManyErrorsAsUnknownsTellNothing) {

@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""How right covariances are, in many scenes, at rest and in motion.
+
+  scripts/covariance_table.py --output runs/covariance
+simulates each scene at rest and in motion with a few seeds, runs them with `--covariance`, and
+prints a table (Markdown): the mean normalised error squared of the change between two poses, so
+many seconds apart, divided by its expected value. 1 is right, more is optimistic; see
+check_covariance.py for the definition. What is already in the folder is not made again.
+Needs Debian's python3-numpy and python3-scipy.
+"""
+import argparse
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+import check_covariance
+
+SCENARIOS = ("hall_os1_16", "courtyard_os1_16", "office_os0_64", "facade_os1_16", "corridor_vlp16",
+             "street_hdl64", "forest_mid360", "stairwell_xt32")
+# Parameters of the simulator, seconds, and from when on poses are judged.
+KINDS = {"at rest": ("motion.kind=still", 8.0, 2.0),
+         "in motion": ("motion.rest_s=1", 10.0, 2.0)}
+
+
+def make_run(programs, folder, scenario, kind, seed):
+    """The recording and its result, unless they are there."""
+    parameters, duration_s, _ = KINDS[kind]
+    recording, result = folder / "recording", folder / "result"
+    if (result / "run.json").exists():
+        return
+    subprocess.run([programs / "trajlo_simulate", f"--scenario={scenario}", f"--seed={seed}",
+                    f"--duration_s={duration_s}", f"--set={parameters}", f"--output={recording}",
+                    "--overwrite"], check=True, stdout=subprocess.DEVNULL)
+    run = subprocess.run([programs / "trajlo_run", f"--input={recording}",
+                          f"--config={recording / 'rig.yaml'}", f"--output={result}",
+                          "--overwrite", "--covariance", "--quiet"])
+    if run.returncode:
+        sys.exit(f"covariance_table.py: trajlo_run ended with {run.returncode} on '{recording}'")
+
+
+def ratios_of(folder, apart_s, begin_s):
+    """Of one run, in the mean over its poses: by part, as check_covariance.PARTS."""
+    times, errors, covariances = check_covariance.errors_of(
+        folder / "result", folder / "recording" / "truth.tum", apart_s)
+    late = times >= begin_s + apart_s
+    ratios = []
+    for where in check_covariance.PARTS.values():
+        e = errors[late][:, where]
+        weighted = np.linalg.solve(covariances[late][:, where, where], e[..., None])[..., 0]
+        ratios.append(np.mean(np.sum(e * weighted, axis=1)) / e.shape[1])
+    rms = np.sqrt(np.mean(np.sum(errors[late]**2 * [1, 1, 1, 0, 0, 0], axis=1)))
+    return ratios + [1e3 * rms]
+
+
+def print_table(rows, aparts):
+    print("| scene | |" + "".join(f" {apart:g} s: pose | translation | rotation | rms mm |"
+                                  for apart in aparts))
+    print("|---|---|" + "---|" * 4 * len(aparts))
+    for scenario, kind, values in rows:
+        cells = "".join(f" **{pose:.2f}** | {t:.2f} | {r:.2f} | {rms:.1f} |"
+                        for pose, t, r, rms in values)
+        print(f"| `{scenario}` | {kind} |{cells}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
+    parser.add_argument("--output", type=pathlib.Path, required=True)
+    parser.add_argument("--seeds", type=int, default=2, help="of each scene and kind")
+    parser.add_argument("--scenarios", nargs="+", default=SCENARIOS)
+    parser.add_argument("--apart", nargs="+", type=float, default=[1.0, 3.0],
+                        help="seconds between the poses of a pair")
+    arguments = parser.parse_args()
+    rows = []
+    for kind, (_, _, begin_s) in KINDS.items():
+        for scenario in arguments.scenarios:
+            folders = []
+            for seed in range(1, arguments.seeds + 1):
+                folder = arguments.output / kind.replace(" ", "_") / f"{scenario}-s{seed}"
+                folder.mkdir(parents=True, exist_ok=True)
+                make_run(arguments.build / "apps", folder, scenario, kind, seed)
+                folders.append(folder)
+            rows.append((scenario, kind,
+                         [np.mean([ratios_of(folder, apart, begin_s) for folder in folders], axis=0)
+                          for apart in arguments.apart]))
+    print_table(rows, arguments.apart)
+
+
+if __name__ == "__main__":
+    main()

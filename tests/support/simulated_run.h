@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/odometry/odometry.h"
+#include "core/simulation/scenario.h"
+#include "core/simulation/simulator.h"
+
+namespace trajlo::testing {
+
+/// A simulated recording, run with default options, beside its truth.
+struct SimulatedRun {
+  std::vector<ControlPose> poses;
+  std::vector<Matrix6d> covariances;
+  std::vector<SE3> truth;  ///< Of each pose, in the frame of the first one.
+
+  explicit SimulatedRun(const simulation::Scenario& scenario) {
+    const simulation::Simulator simulator(scenario);
+    OdometryOptions options;
+    for (const auto& lidar : scenario.rig) {
+      options.segmenter.T_body_lidar.push_back(lidar.T_body_lidar);
+    }
+    Odometry odometry(options);
+    odometry.OnPose([&](const ControlPose& pose, const Matrix6d& covariance) {
+      poses.push_back(pose);
+      covariances.push_back(covariance);
+    });
+    simulation::SimulateScans(simulator, 2, [&](const auto& scan) { odometry.AddScan(scan.scan); });
+    odometry.Finish();
+    const SE3 T_start_world = simulator.TrueWorldFromBody(poses.front().t_ns).Inverse();
+    for (const ControlPose& pose : poses) {
+      truth.push_back(T_start_world * simulator.TrueWorldFromBody(pose.t_ns));
+    }
+  }
+
+  /// Time since the first pose.
+  double Time_s(std::size_t i) const {
+    return 1e-9 * static_cast<double>(poses[i].t_ns - poses.front().t_ns);
+  }
+};
+
+}  // namespace trajlo::testing
