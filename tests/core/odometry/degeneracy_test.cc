@@ -84,7 +84,6 @@ const Box kCorridor = {{-kFar, -1.2, -1.3}, {kFar, 1.2, 1.5}};
 const Box kTunnel = {{-kFar, -5, -2}, {kFar, 5, 6}};
 const Box kStreet = {{-kFar, -9, -2}, {kFar, 9, kFar}};
 const Box kShaft = {{-6, -5, -kFar}, {7, 6, kFar}};
-const Eigen::Vector3d kX = Eigen::Vector3d::UnitX(), kZ = Eigen::Vector3d::UnitZ();
 const Scene kScenes[] = {
     {"Room", {{-6, -5, -1.5}, {7, 6, 3}}, 0.6 * kX, 900, 1, {0, 0, 0}},
     {"RoomOfFewRays", {{-6, -5, -1.5}, {7, 6, 3}}, 0.6 * kX, 25, 1, {0, 0, 0}},
