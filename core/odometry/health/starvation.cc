@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/starvation.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "manifolds/se3_interpolation.h"
@@ -12,7 +11,9 @@ namespace {
 /// A point within this distance is on its plane: the error of a prediction after a short pause.
 constexpr double kOnPlane_m = 0.2;
 /// Fewer points than this hold no pose.
-constexpr int kHandful = 20;
+constexpr double kHandful = 20.0;
+/// About so many are asked.
+constexpr std::size_t kAsked = 256;
 /// Of the points that have a plane, this share lies on it, if the pose is right. If it is wrong by
 /// more than a point's distance from its plane may be, a third does.
 constexpr double kAgreeing = 0.5;
@@ -25,15 +26,15 @@ constexpr double kBridged_rad = 0.45;
 bool IsStarved(const Window& window, const Segment& segment) {
   const auto k = static_cast<int>(&segment - window.segments.data());
   const SegmentMotion motion(window.Pose(k), segment.T_world_end);
-  const double needed =
-      std::max<double>(kHandful, kAgreeing * static_cast<double>(segment.points.size()));
-  int on_plane = 0;
-  for (const RegistrationPoint& point : segment.points) {
+  // What most points say, some of them say, too.
+  const std::size_t stride = 1 + segment.points.size() / kAsked;
+  double asked = 0.0, on_plane = 0.0;
+  for (std::size_t i = 0; i < segment.points.size(); i += stride, ++asked) {
+    const RegistrationPoint& point = segment.points[i];
     const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
-    on_plane += std::abs(point.DistanceToPlane(p_world)) < kOnPlane_m ? 1 : 0;
-    if (on_plane >= needed) return false;
+    if (std::abs(point.DistanceToPlane(p_world)) < kOnPlane_m) ++on_plane;
   }
-  return true;
+  return on_plane < kAgreeing * asked || on_plane * static_cast<double>(stride) < kHandful;
 }
 
 bool StarvationWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {
