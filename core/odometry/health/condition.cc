@@ -10,8 +10,6 @@ namespace trajlo {
 namespace {
 
 constexpr double kSigmas = 3.0;
-/// The eigenvectors that may be the weakest direction once the differences between places count.
-constexpr int kCandidates = 3;
 
 /// H and F of a rigid motion of the window, in the frame of its newest pose.
 struct RigidInformation {
@@ -75,7 +73,7 @@ WindowCondition ConditionOf(const Window& window, double points_per_error) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaling.asDiagonal() * certain *
                                                       scaling.asDiagonal());
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kCandidates; ++i) {
+  for (int i = 0; i < 6; ++i) {
     const Vector6d direction = eigen.eigenvectors().col(i);
     const double spread = SpreadOverPlaces(window, scaling.cwiseProduct(direction));
     const double sure = eigen.eigenvalues()[i] - kSigmas * spread;
