@@ -79,6 +79,7 @@ TEST_P(Degeneracy, IsFlaggedWithItsDirectionAndNothingElseIs) {
   }
 }
 
+const Eigen::Vector3d kX = Eigen::Vector3d::UnitX(), kZ = Eigen::Vector3d::UnitZ();
 const Box kCorridor = {{-kFar, -1.2, -1.3}, {kFar, 1.2, 1.5}};
 const Box kTunnel = {{-kFar, -5, -2}, {kFar, 5, 6}};
 const Box kStreet = {{-kFar, -9, -2}, {kFar, 9, kFar}};
