@@ -79,8 +79,8 @@ def wrong_point_times(injector, index):
 def covered(injector, index):
     for one in range(index, index + 3):
         points = injector.folder.points(one)
-        for axis in "xyz":
-            points[axis] = 0.05
+        for axis in "xyz":  # no two scans alike: that would be a driver that hangs
+            points[axis] = injector.rng.uniform(0.03, 0.06, len(points))
         injector.folder.set_points(one, points)
         injector.expected["too_near"] += len(points)
 

@@ -12,7 +12,7 @@ from support import FolderTest
 
 from trajlo_campaign import (draw, execute, file_faults, flags, judge, message_file,
                              point_faults, prepare, report, scan_folder, scenes, simulator_faults,
-                             stamp_faults, truth)
+                             soak, stamp_faults, truth)
 
 SCANS, POINTS = 60, 50
 START_NS = prepare.START_NS
@@ -311,6 +311,21 @@ class ExecuteTest(FolderTest):
         self.assertEqual(self.execute("kill -SEGV $$"), -11)
         self.assertEqual(self.execute("while :; do :; done", cpu_s=1), execute.HUNG)
         self.assertEqual(self.execute("sleep 600", wall_s=0.3), execute.HUNG)
+
+
+class SoakTest(unittest.TestCase):
+    @staticmethod
+    def samples(leak_mb):
+        """Of a run of an hour: it begins with 100 MB, writes 13 MB, and keeps its poses."""
+        written = np.linspace(0.0, 13e6, 1000)
+        memory = 100.0 + soak.TRAJECTORY_SHARE * written / 1e6 + np.linspace(0.0, leak_mb, 1000)
+        return np.stack([np.arange(1000.0), written, memory], axis=1)
+
+    def test_the_trajectory_is_no_leak(self):
+        self.assertAlmostEqual(soak.memory_growth(self.samples(0.0)), 0.0, places=6)
+
+    def test_a_leak_is_seen(self):
+        self.assertGreater(soak.memory_growth(self.samples(13.0)), 0.05)
 
 
 class ReportTest(FolderTest):
