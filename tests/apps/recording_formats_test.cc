@@ -37,8 +37,11 @@ class RecordingFormats : public ::testing::Test {
 
   /// The bytes of trajectory.tum; `rig` is the recording whose rig.yaml is used.
   std::string Trajectory(const std::string& recording, const std::string& rig) const {
-    Call(TRAJLO_RUN, {"--input=" + Path(recording), "--output=" + Path("result"),
-                      "--config=" + Path(rig) + "/rig.yaml", "--overwrite", "--quiet"});
+    const Outcome outcome =
+        CallProgram(TRAJLO_RUN, {"--input=" + Path(recording), "--output=" + Path("result"),
+                                 "--config=" + Path(rig) + "/rig.yaml", "--overwrite", "--quiet"});
+    // 3: the stamps of many scans had to be mended.
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
     return ReadFile(Path("result") + "/trajectory.tum");
   }
 
