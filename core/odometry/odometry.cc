@@ -142,13 +142,8 @@ void Odometry::Step(SegmentCloud cloud) {
   WindowStatistics statistics;
   AssociateAndSolve(&statistics);
   statistics.SetCorrection(predicted.back(), window_.segments.back().T_world_end);
-  const bool is_starved = IsStarved(window_, window_.segments.back());
-  if (is_starved && starvation_.IsBlind(window_.EndNs(), motion_prior_.density())) {
-    cloud = std::move(window_.segments.back().cloud);
-    Revert(predicted, &window_);
-    window_.segments.pop_back();
-    BeginSearch();
-    Take(std::move(cloud));
+  if (IsBlind()) {
+    TakeBackAndSearch(predicted);
     return;
   }
   NoteFed();
@@ -165,6 +160,22 @@ void Odometry::Step(SegmentCloud cloud) {
   Describe(window_, &statistics);
   if (window_.size() >= options_.window.segments) Leave(&statistics);
   Report(&statistics);
+}
+
+/// Whether the newest points do not hold the window, and did not for so long that its prediction is
+/// no place to start from.
+bool Odometry::IsBlind() const {
+  return IsStarved(window_, window_.segments.back()) &&
+         starvation_.IsBlind(window_.EndNs(), motion_prior_.density());
+}
+
+/// The newest segment leaves the window as it came, and is looked for in the map.
+void Odometry::TakeBackAndSearch(const std::vector<SE3>& predicted) {
+  SegmentCloud cloud = std::move(window_.segments.back().cloud);
+  Revert(predicted, &window_);
+  window_.segments.pop_back();
+  BeginSearch();
+  Take(std::move(cloud));
 }
 
 /// The newest segment that its points hold. One that sees a new part of the world is held as soon

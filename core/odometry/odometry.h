@@ -73,6 +73,8 @@ class Odometry {
   void Search(bool is_last);
   void Resume(const ReturnSweep& sweep);
   void GetLost(const ReturnSweep& sweep);
+  bool IsBlind() const;
+  void TakeBackAndSearch(const std::vector<SE3>& predicted);
   void NoteFed();
   void AssociateAndSolve(WindowStatistics* statistics);
   void Learn(const SE3& T_world_predicted);
