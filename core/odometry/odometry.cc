@@ -154,7 +154,7 @@ void Odometry::Step(SegmentCloud cloud) {
     Revert(predicted, &window_);
   }
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
-  lasting_flags_ = LastingFlags(lasting_flags_, statistics);
+  lasting_flags_ = LastingFlags(lasting_flags_, window_, statistics);
   statistics.flags |= lasting_flags_;
   window_.segments.back().flags = statistics.flags;
   Describe(window_, &statistics);
@@ -212,14 +212,20 @@ void Odometry::Learn(const SE3& T_world_predicted) {
                       window_.segments.back().Duration_s());
 }
 
+/// What no plane agrees with may be a hand before the LiDAR. And after a time in which points did
+/// not hold the body, it may be where the map does not know it: a map that grew there would prove
+/// it right.
+bool Odometry::MayEnterMap(const Segment& segment) const {
+  return !IsStarved(window_, segment) && (lasting_flags_ == 0 || IsOnMap(window_, segment));
+}
+
 /// The oldest segment leaves: its first pose is settled, its points enter the map.
 void Odometry::Leave(WindowStatistics* statistics) {
   Stopwatch watch;
   SettleFront();
   const SE3 T_begin = window_.T_world_begin;
-  // What no plane agrees with may be a hand before the LiDAR. The first points agree with nothing.
-  const bool is_of_the_world =
-      !starvation_.was_fed() || !IsStarved(window_, window_.segments.front());
+  // The first points agree with nothing.
+  const bool is_of_the_world = !starvation_.was_fed() || MayEnterMap(window_.segments.front());
   const Segment oldest = Marginalize(options_.marginalization, &window_);
   statistics->milliseconds_marginalize = watch.Milliseconds();
   if (is_of_the_world) AddToMap(oldest.cloud, T_begin, oldest.T_world_end);

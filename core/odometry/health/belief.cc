@@ -55,10 +55,11 @@ void Judge(const LostOptions& options, double points_per_error, Window* window,
   }
 }
 
-unsigned LastingFlags(unsigned before, const WindowStatistics& statistics) {
+unsigned LastingFlags(unsigned before, const Window& window, const WindowStatistics& statistics) {
   const unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
   if (unheld != 0) return unheld;
-  return statistics.has_converged ? 0U : before;
+  if (before == 0) return 0;
+  return statistics.has_converged && IsOnMap(window, window.segments.back()) ? 0U : before;
 }
 
 }  // namespace trajlo
