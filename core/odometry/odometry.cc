@@ -20,6 +20,10 @@ namespace {
 /// How well a place is known that was found in the map.
 constexpr double kFoundSigma_m = 0.2;
 constexpr double kFoundSigma_rad = 0.05;
+/// Of the points of a segment whose pose is in doubt, so many are on the map before the others
+/// extend it: half if they agree and merely leave a direction open, as in a tunnel.
+constexpr double kMayEnterMap = 0.75;
+constexpr double kMayEnterMapIfOpen = 0.5;
 
 }  // namespace
 
@@ -216,7 +220,10 @@ void Odometry::Learn(const SE3& T_world_predicted) {
 /// not hold the body, it may be where the map does not know it: a map that grew there would prove
 /// it right.
 bool Odometry::MayEnterMap(const Segment& segment) const {
-  return !IsStarved(window_, segment) && (lasting_flags_ == 0 || IsOnMap(window_, segment));
+  if (IsStarved(window_, segment)) return false;
+  if (lasting_flags_ == 0) return true;
+  const bool is_open = lasting_flags_ == kFlagDegenerate;
+  return ShareOnMap(window_, segment) >= (is_open ? kMayEnterMapIfOpen : kMayEnterMap);
 }
 
 /// The oldest segment leaves: its first pose is settled, its points enter the map.

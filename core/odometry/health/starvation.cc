@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/starvation.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "manifolds/se3_interpolation.h"
@@ -17,9 +18,6 @@ constexpr std::size_t kAsked = 256;
 /// Of the points that have a plane, this share lies on it, if the pose is right. If it is wrong by
 /// more than a point's distance from its plane may be, a third does.
 constexpr double kAgreeing = 0.5;
-/// Of all points, where the pose is right and the map known: nine of ten, in simulated rooms and
-/// stairwells. In wrong minima it was about half.
-constexpr double kOnMap = 0.75;
 /// What a registration from the prediction bridges, for three standard deviations of it.
 constexpr double kBridged_m = 1.0;
 constexpr double kBridged_rad = 0.45;
@@ -40,16 +38,16 @@ bool IsStarved(const Window& window, const Segment& segment) {
   return on_plane < kAgreeing * asked || on_plane * static_cast<double>(stride) < kHandful;
 }
 
-bool IsOnMap(const Window& window, const Segment& segment) {
+double ShareOnMap(const Window& window, const Segment& segment) {
   const auto k = static_cast<int>(&segment - window.segments.data());
   const SegmentMotion motion(window.Pose(k), segment.T_world_end);
-  std::size_t on_plane = 0;
+  double on_plane = 0.0;
   for (const RegistrationPoint& point : segment.points) {
     const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
     if (std::abs(point.DistanceToPlane(p_world)) < kOnPlane_m) ++on_plane;
   }
-  return static_cast<double>(on_plane) >=
-         kOnMap * static_cast<double>(segment.cloud.registration_points.size());
+  return on_plane /
+         std::max<double>(1.0, static_cast<double>(segment.cloud.registration_points.size()));
 }
 
 bool StarvationWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {
