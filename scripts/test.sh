@@ -36,7 +36,7 @@ if ! ctest --test-dir "$build" --parallel "$(nproc)" --timeout 300 --output-on-f
   # Thousands of lines may lie between a failure and here: the ends of what the failed ones printed.
   awk '/^[0-9]+\/[0-9]+ Testing: / { count = 0; failed = 0 }
        { line[count++ % 30] = $0 }
-       /^Test Failed\.$/ || /^Test timeout/ { failed = 1 }
+       /^Test Failed\.$/ { failed = 1 }
        /time elapsed: / && failed {
          print ""
          for (i = count > 30 ? count - 30 : 0; i < count; ++i) print line[i % 30]

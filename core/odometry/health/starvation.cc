@@ -22,32 +22,31 @@ constexpr double kAgreeing = 0.5;
 constexpr double kBridged_m = 1.0;
 constexpr double kBridged_rad = 0.45;
 
-}  // namespace
-
-bool IsStarved(const Window& window, const Segment& segment) {
+/// How many of every `stride`-th point of a segment lie on their planes.
+double CountOnPlanes(const Window& window, const Segment& segment, std::size_t stride) {
   const auto k = static_cast<int>(&segment - window.segments.data());
   const SegmentMotion motion(window.Pose(k), segment.T_world_end);
-  // What most points say, some of them say, too.
-  const std::size_t stride = 1 + segment.points.size() / kAsked;
-  double asked = 0.0, on_plane = 0.0;
-  for (std::size_t i = 0; i < segment.points.size(); i += stride, ++asked) {
+  double on_plane = 0.0;
+  for (std::size_t i = 0; i < segment.points.size(); i += stride) {
     const RegistrationPoint& point = segment.points[i];
     const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
     if (std::abs(point.DistanceToPlane(p_world)) < kOnPlane_m) ++on_plane;
   }
-  return on_plane < kAgreeing * asked || on_plane * static_cast<double>(stride) < kHandful;
+  return on_plane;
+}
+
+}  // namespace
+
+bool IsStarved(const Window& window, const Segment& segment) {
+  // What most points say, some of them say, too.
+  const std::size_t stride = 1 + segment.points.size() / kAsked;
+  const double on_plane = static_cast<double>(stride) * CountOnPlanes(window, segment, stride);
+  return on_plane < kHandful || on_plane < kAgreeing * static_cast<double>(segment.points.size());
 }
 
 double ShareOnMap(const Window& window, const Segment& segment) {
-  const auto k = static_cast<int>(&segment - window.segments.data());
-  const SegmentMotion motion(window.Pose(k), segment.T_world_end);
-  double on_plane = 0.0;
-  for (const RegistrationPoint& point : segment.points) {
-    const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
-    if (std::abs(point.DistanceToPlane(p_world)) < kOnPlane_m) ++on_plane;
-  }
-  return on_plane /
-         std::max<double>(1.0, static_cast<double>(segment.cloud.registration_points.size()));
+  const std::size_t all = std::max<std::size_t>(segment.cloud.registration_points.size(), 1);
+  return CountOnPlanes(window, segment, 1) / static_cast<double>(all);
 }
 
 bool StarvationWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {

@@ -80,7 +80,7 @@ FeignedInformation FeignedBy(const std::vector<RegistrationPoint>& points, const
   OuterSum along_normals, no_surface;
   for (const RegistrationPoint& point : points) {
     const Eigen::Vector3d x_world = motion.ToWorld(point.alpha, point.p_body_m);
-    const double r = point.normal_world.dot(x_world) - point.offset_m;
+    const double r = point.DistanceToPlane(x_world);
     const double weight = point.weight * information;
     const double w = weight * noise.kernel.Weight(weight * r * r);
     const Eigen::Vector3d x = R_end_world * x_world + T_end_world.t;

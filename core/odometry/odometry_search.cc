@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// When the points do not hold the body any more, and how it finds its place again.
+#include <utility>
+
+#include "core/odometry/health/belief.h"
+#include "core/odometry/odometry.h"
+#include "core/odometry/window/push_segment.h"
+
+namespace trajlo {
+namespace {
+
+/// How well a place is known that was found in the map.
+constexpr double kFoundSigma_m = 0.2;
+constexpr double kFoundSigma_rad = 0.05;
+}  // namespace
+
+/// Whether the newest points do not hold the window, and did not for so long that its prediction is
+/// no place to start from.
+bool Odometry::IsBlind() const {
+  return IsStarved(window_, window_.segments.back()) &&
+         starvation_.IsBlind(window_.EndNs(), motion_prior_.density());
+}
+
+/// The newest segment leaves the window as it came, and is looked for in the map.
+void Odometry::TakeBackAndSearch(const std::vector<SE3>& predicted) {
+  SegmentCloud cloud = std::move(window_.segments.back().cloud);
+  Revert(predicted, &window_);
+  window_.segments.pop_back();
+  BeginSearch();
+  Take(std::move(cloud));
+}
+
+/// The newest segment that its points hold. One that sees a new part of the world is held as soon
+/// as the map has grown there.
+void Odometry::NoteFed() {
+  for (std::size_t k = window_.segments.size(); k-- > 0;) {
+    if (IsStarved(window_, window_.segments[k])) continue;
+    starvation_.Fed(window_.segments[k].cloud.end_ns);
+    return;
+  }
+}
+
+/// From the end of the window on, nobody knows where the body is.
+void Odometry::BeginSearch() {
+  const int size = window_.size();
+  const Vector6d velocity = size > 0 ? window_.Velocity(size - 1) : window_.begin_velocity;
+  search_.emplace(LastSeen{starvation_.fed_until_ns(), window_.EndNs(), window_.Pose(size),
+                           velocity, motion_prior_.density()},
+                  attitude_, options_);
+}
+
+/// Looks for the newest points in the map.
+void Odometry::Search(bool is_last) {
+  const ReturnSweep sweep = search_->Look(map_, &threads_);
+  const LastSeen& last = search_->last();
+  const double unseen_s = 1e-9 * static_cast<double>(sweep.cloud.begin_ns - last.t_ns);
+  if (sweep.T_world_begin && IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s)) {
+    Resume(sweep);
+  } else if (is_last || search_->IsHopeless()) {
+    GetLost(sweep);
+  }
+}
+
+/// The place is found: a new window begins there, and takes what has come since.
+void Odometry::Resume(const ReturnSweep& sweep) {
+  SettleWindow(sweep.cloud.begin_ns);
+  const SE3& T_world_begin = *sweep.T_world_begin;
+  window_ = MakeWindow(sweep.cloud.begin_ns, T_world_begin);
+  window_.prior = MakeAnchor(T_world_begin, kFoundSigma_m, kFoundSigma_rad);
+  window_.begin_flags = kFlagGap;
+  std::vector<SegmentCloud> segments = search_->TakeSegments();
+  if (sweep.cloud.end_ns > sweep.cloud.begin_ns) {
+    window_.begin_velocity =
+        1e9 / static_cast<double>(sweep.cloud.end_ns - sweep.cloud.begin_ns) * sweep.tau;
+  } else {
+    const LastSeen& last = search_->last();
+    window_.begin_velocity = 1e9 / static_cast<double>(sweep.cloud.begin_ns - last.t_ns) *
+                             Minus(T_world_begin, last.T_world_body);
+    AddToMap(sweep.cloud, T_world_begin, T_world_begin);
+    segments.clear();
+  }
+  starvation_.Fed(sweep.cloud.begin_ns);
+  loss_watch_ = LossWatch(options_.lost);
+  search_.reset();
+  for (SegmentCloud& segment : segments) Take(std::move(segment));
+}
+
+/// The place is not found. What comes now is a recording by itself, placed where the body would be
+/// if it had gone on as it did.
+void Odometry::GetLost(const ReturnSweep& sweep) {
+  SettleWindow(sweep.cloud.begin_ns);
+  if (!lost_at_ns_) lost_at_ns_ = starvation_.fed_until_ns() + 1;
+  map_ = MapPyramid(options_.map);
+  BeginMap(sweep.cloud, search_->Predict(sweep.cloud.begin_ns), sweep.tau, kFlagGap | kFlagLost);
+  search_.reset();
+}
+
+}  // namespace trajlo
