@@ -21,6 +21,9 @@ namespace {
 /// extend it: half if they agree and merely leave a direction open, as in a tunnel.
 constexpr double kMayEnterMap = 0.75;
 constexpr double kMayEnterMapIfOpen = 0.5;
+/// Where fewer of the newest points than this share have a plane, the window keeps so few segments.
+constexpr double kSeesMap = 0.5;
+constexpr int kShortWindow = 2;
 
 }  // namespace
 
@@ -159,7 +162,7 @@ void Odometry::Step(SegmentCloud cloud) {
   statistics.flags |= lasting_flags_;
   window_.segments.back().flags = statistics.flags;
   Describe(window_, &statistics);
-  if (window_.size() >= options_.window.segments) Leave(&statistics);
+  while (window_.size() > SegmentsToKeep()) Leave(&statistics);
   Report(&statistics);
 }
 
@@ -197,6 +200,16 @@ bool Odometry::MayEnterMap(const Segment& segment) const {
   return ShareOnMap(window_, segment) >= (is_open ? kMayEnterMapIfOpen : kMayEnterMap);
 }
 
+/// Points enter the map when they leave the window. In a fast turn that comes too late: the newest
+/// ones see what only the window has seen. Then the window is shorter, and the map grows with them.
+int Odometry::SegmentsToKeep() const {
+  const Segment& newest = window_.segments.back();
+  const auto all = static_cast<double>(newest.cloud.registration_points.size());
+  const bool sees_map = static_cast<double>(newest.points.size()) >= kSeesMap * all;
+  return sees_map ? options_.window.segments - 1
+                  : std::min(kShortWindow, options_.window.segments - 1);
+}
+
 /// The oldest segment leaves: its first pose is settled, its points enter the map.
 void Odometry::Leave(WindowStatistics* statistics) {
   Stopwatch watch;
@@ -205,10 +218,10 @@ void Odometry::Leave(WindowStatistics* statistics) {
   // The first points agree with nothing.
   const bool is_of_the_world = !starvation_.was_fed() || MayEnterMap(window_.segments.front());
   const Segment oldest = Marginalize(options_.marginalization, &window_);
-  statistics->milliseconds_marginalize = watch.Milliseconds();
+  statistics->milliseconds_marginalize += watch.Milliseconds();
   if (is_of_the_world) AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
   map_.RemoveFar(oldest.T_world_end.t);
-  statistics->milliseconds_map = watch.Milliseconds();
+  statistics->milliseconds_map += watch.Milliseconds();
 }
 
 void Odometry::Report(WindowStatistics* statistics) {

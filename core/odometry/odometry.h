@@ -79,6 +79,7 @@ class Odometry {
   void AssociateAndSolve(WindowStatistics* statistics);
   void Learn(const SE3& T_world_predicted);
   bool MayEnterMap(const Segment& segment) const;
+  int SegmentsToKeep() const;
   void Leave(WindowStatistics* statistics);
   void Report(WindowStatistics* statistics);
   void SettleWindow(std::int64_t before_ns);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@ struct SimulatedRun {
   std::vector<ControlPose> poses;
   std::vector<Matrix6d> covariances;
   std::vector<SE3> truth;  ///< Of each pose, in the frame of the first one.
+  std::optional<std::int64_t> lost_at_ns;
 
   explicit SimulatedRun(const simulation::Scenario& scenario) {
     const simulation::Simulator simulator(scenario);
@@ -30,6 +33,7 @@ struct SimulatedRun {
     });
     simulation::SimulateScans(simulator, 2, [&](const auto& scan) { odometry.AddScan(scan.scan); });
     odometry.Finish();
+    lost_at_ns = odometry.lost_at_ns();
     const SE3 T_start_world = simulator.TrueWorldFromBody(poses.front().t_ns).Inverse();
     for (const ControlPose& pose : poses) {
       truth.push_back(T_start_world * simulator.TrueWorldFromBody(pose.t_ns));
@@ -39,6 +43,14 @@ struct SimulatedRun {
   /// Time since the first pose.
   double Time_s(std::size_t i) const {
     return 1e-9 * static_cast<double>(poses[i].t_ns - poses.front().t_ns);
+  }
+
+  double LargestError_m() const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      largest = std::max(largest, (poses[i].T_world_body.t - truth[i].t).norm());
+    }
+    return largest;
   }
 };
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// A narrow view that turns fast: within a window's length it sees what the map does not have yet.
+#include <gtest/gtest.h>
+
+#include "tests/support/simulated_run.h"
+
+namespace trajlo {
+namespace {
+
+using testing::SimulatedRun;
+
+class FastTurn : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(FastTurn, IsFollowedIntoAPartOfTheWorldThatTheMapDoesNotHave) {
+  simulation::Scenario scenario = simulation::MakeScenario("spin_fast_avia");
+  scenario.duration_s = 4.0;  // The first turn at up to 35 rad/s ends at 2.7 s.
+  scenario.seed = GetParam();
+  const SimulatedRun run(scenario);
+  EXPECT_FALSE(run.lost_at_ns);
+  EXPECT_LT(run.LargestError_m(), 0.25);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, FastTurn, ::testing::Values(2, 4, 5, 6, 8));
+
+}  // namespace
+}  // namespace trajlo
