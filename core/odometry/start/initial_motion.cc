@@ -26,11 +26,14 @@ constexpr double kPriorSigmaRad = 2.0;
 /// does ...
 constexpr double kMinGain = 1.15;
 /// ... or simply more, where it is longer than this: at rest the estimate is off by centimetres,
-/// and a street explains nearly as many points at any speed.
+/// and a street explains nearly as many points at any speed. What counts is all points, or those
+/// that face the direction which is held weakly.
 constexpr double kClearMotion_m = 0.3;
 
-/// A search that comes back to rest has found it.
+/// A search that comes back to rest has found it, if so many of the points with planes that face
+/// the weak direction say so: nine of ten at rest, and a quarter of those of a road at 30 m/s.
 constexpr double kAtRest_m = 0.1;
+constexpr double kSayingSo = 0.5;
 /// A direction with less than this share of the information is held weakly.
 constexpr double kWeakShare = 0.02;
 /// Planes whose normals have at least this cosine with a direction face it.
@@ -70,14 +73,26 @@ class Hypothesis {
     int agreeing = 0;
     const SegmentMotion motion(SE3(), T_end_);
     for (const RegistrationPoint& point : points_with_plane_) {
-      if (direction && std::abs(point.normal_world.dot(*direction)) < kFacing) continue;
+      if (direction && !IsFacing(point, *direction)) continue;
       const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
       agreeing += std::abs(point.DistanceToPlane(p_world)) < kAgreementM ? 1 : 0;
     }
     return agreeing / points_;
   }
 
+  /// Share of the second half's points that have a plane which faces `direction`, near or far.
+  double Facing(const Eigen::Vector3d& direction) const {
+    return static_cast<double>(std::count_if(
+               points_with_plane_.begin(), points_with_plane_.end(),
+               [&](const RegistrationPoint& point) { return IsFacing(point, direction); })) /
+           points_;
+  }
+
  private:
+  static bool IsFacing(const RegistrationPoint& point, const Eigen::Vector3d& direction) {
+    return std::abs(point.normal_world.dot(direction)) >= kFacing;
+  }
+
   SE3 T_end_;
   double points_;
   std::vector<RegistrationPoint> points_with_plane_;
@@ -99,7 +114,13 @@ class FirstInterval {
 
   double Agreement(const Vector6d& tau,
                    const std::optional<Eigen::Vector3d>& direction = std::nullopt) const {
-    return Hypothesis(cloud_, second_half_, tau, map_options_, threads_).Agreement(direction);
+    return At(tau).Agreement(direction);
+  }
+
+  /// Whether what faces a direction says that the motion along it is the right one.
+  bool IsShownAlong(const Eigen::Vector3d& direction, const Vector6d& tau) const {
+    const Hypothesis hypothesis = At(tau);
+    return hypothesis.Agreement(direction) > kSayingSo * hypothesis.Facing(direction);
   }
 
   /// The motion near `tau` by rounds of registration; the first ones see coarsely.
@@ -131,6 +152,10 @@ class FirstInterval {
   }
 
  private:
+  Hypothesis At(const Vector6d& tau) const {
+    return Hypothesis(cloud_, second_half_, tau, map_options_, threads_);
+  }
+
   RegistrationNormalEquations Linearize(const Vector6d& tau, double coarse) const {
     MapPyramidOptions map = map_options_;
     map.finest.voxel_size_m *= coarse;
@@ -194,11 +219,14 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
   motion.tau = interval.Refine(Vector6d::Zero(), 0, kRounds);
   motion.agreement = interval.Agreement(motion.tau);
   motion.agreement_at_rest = interval.Agreement(Vector6d::Zero());
-  if (motion.tau.head<3>().norm() < kAtRest_m) return motion;
-  if (const auto direction = interval.WeakDirection(motion.tau)) {
-    motion.tau = SearchAlong(*direction, interval, motion.tau);
-    motion.agreement = interval.Agreement(motion.tau);
-  }
+  const auto direction = interval.WeakDirection(motion.tau);
+  if (!direction) return motion;
+  const bool is_at_rest = motion.tau.head<3>().norm() < kAtRest_m;
+  if (is_at_rest && interval.IsShownAlong(*direction, motion.tau)) return motion;
+  motion.tau = SearchAlong(*direction, interval, motion.tau);
+  motion.agreement = interval.Agreement(motion.tau);
+  motion.facing_agreement = interval.Agreement(motion.tau, direction);
+  motion.facing_agreement_at_rest = interval.Agreement(Vector6d::Zero(), direction);
   return motion;
 }
 
@@ -209,7 +237,8 @@ Vector6d MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOp
   const InitialMotion motion = EstimateInitialMotion(cloud, map_options, registration, threads);
   const bool is_clear = motion.tau.head<3>().norm() > kClearMotion_m;
   const double gain = is_clear ? 1.0 : kMinGain;
-  const bool is_believed = motion.agreement > gain * motion.agreement_at_rest;
+  const bool is_believed = motion.agreement > gain * motion.agreement_at_rest ||
+                           motion.facing_agreement > gain * motion.facing_agreement_at_rest;
   return is_believed ? motion.tau : Vector6d(Vector6d::Zero());
 }
 
