@@ -18,7 +18,7 @@ struct SegmenterOptions {
   double interval_s = 0.03;
   double min_range_m = 0.5;
   double max_range_m = 150.0;
-  double map_voxel_m = 0.1;
+  double map_voxel_m = 0.2;
   double registration_voxel_m = 0.4;
   int max_registration_points = 2000;
   double max_gap_s = 1.0;

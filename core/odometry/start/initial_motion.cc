@@ -4,7 +4,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <vector>
 
 #include "core/odometry/window/association.h"
 #include "factors/segment_registration.h"
@@ -43,6 +45,8 @@ constexpr double kSearchReach_m = 15.0;
 constexpr double kSearchStep_m = 2.0;
 constexpr int kSearchFirstRound = 2;
 constexpr int kSearchLastRound = 11;
+/// Of a number of points that agree by chance.
+constexpr double kClearDeviations = 5.0;
 
 /// The first half's points as a map, moved with the hypothesis, and the second half's planes in it.
 class Hypothesis {
@@ -111,6 +115,8 @@ class FirstInterval {
   }
 
   bool is_empty() const { return second_half_.empty(); }
+  /// Points of the second half.
+  double size() const { return static_cast<double>(second_half_.size()); }
 
   double Agreement(const Vector6d& tau,
                    const std::optional<Eigen::Vector3d>& direction = std::nullopt) const {
@@ -174,21 +180,28 @@ class FirstInterval {
 };
 
 /// Where the points hold one direction weakly (along a road), a search ends near where it starts.
-/// So it is started again at steps along that direction, and judged by the planes that face it.
+/// So it is started again at steps along that direction, and judged by the planes that face it: at
+/// one of them, many more points must agree than chance brings about at the others.
 Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& interval,
                      const Vector6d& found) {
   const double found_m = found.head<3>().dot(direction);
   Vector6d best = found;
   double best_agreement = interval.Agreement(found, direction);
+  std::vector<double> agreements;
   for (double start_m = -kSearchReach_m; start_m <= kSearchReach_m; start_m += kSearchStep_m) {
     Vector6d start = found;
     start.head<3>() += (start_m - found_m) * direction;
     const Vector6d tau = interval.Refine(start, kSearchFirstRound, kSearchLastRound);
-    const double agreement = interval.Agreement(tau, direction);
-    if (agreement <= best_agreement) continue;
+    agreements.push_back(interval.Agreement(tau, direction));
+    if (agreements.back() <= best_agreement) continue;
     best = tau;
-    best_agreement = agreement;
+    best_agreement = agreements.back();
   }
+  const auto median = agreements.begin() + static_cast<std::ptrdiff_t>(agreements.size() / 2);
+  std::nth_element(agreements.begin(), median, agreements.end());
+  const double chance = interval.size() * *median;
+  const double clear = chance + kClearDeviations * std::sqrt(std::max(chance, 1.0));
+  if (interval.size() * best_agreement < clear) return found;
   return interval.Refine(best, kSearchFirstRound, kRounds);
 }
 
