@@ -138,13 +138,16 @@ std::optional<std::int64_t> StampNs(const TimeConvention& convention,
 /// impossible ones.
 std::size_t PlaceTimes(const TimeConvention& convention, std::int64_t stamp_ns, LidarScan* scan) {
   const std::int64_t reach_ns = ReachNs(convention);
-  const std::int64_t zero_ns = convention.IsAbsolute() ? convention.clock_offset_ns
-                                                       : stamp_ns + convention.ZeroAfterStampNs();
+  std::int64_t zero_ns = convention.clock_offset_ns;
+  // A stamp at the end of what 64 bits hold has no times after it.
+  const bool has_zero =
+      convention.IsAbsolute() ||
+      !__builtin_add_overflow(stamp_ns, convention.ZeroAfterStampNs(), &zero_ns);
   std::size_t broken = 0;
   for (LidarPoint& point : scan->points) {
     std::int64_t t_ns = 0;
-    const bool overflow = __builtin_add_overflow(point.t_ns, zero_ns, &t_ns);
-    if (point.t_ns != kNoTime && !overflow && IsWithin(reach_ns, t_ns, stamp_ns)) {
+    const bool fits = has_zero && !__builtin_add_overflow(point.t_ns, zero_ns, &t_ns);
+    if (point.t_ns != kNoTime && fits && IsWithin(reach_ns, t_ns, stamp_ns)) {
       point.t_ns = t_ns;
       continue;
     }
