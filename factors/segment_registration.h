@@ -6,79 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "factors/registration_point.h"
-#include "factors/robust_kernel.h"
-#include "manifolds/se3_interpolation.h"
+#include "factors/segment_linearizer.h"
 
 namespace trajlo {
-
-using Vector12d = Eigen::Matrix<double, 12, 1>;
-using Matrix12d = Eigen::Matrix<double, 12, 12>;
-
-/// How a point-to-plane distance is weighed: s = weight (r / sigma)², cost ½ rho(s).
-struct RegistrationNoise {
-  double sigma_m = 0.1;
-  /// Its width is in units of sigma: a kernel of c metres has width c / sigma.
-  RobustKernel kernel{};
-};
-
-/// The registration cost of one segment around a state: E(xi) ~ cost + gᵀxi + ½ xiᵀH xi with
-/// xi = [xi_begin; xi_end] the right perturbations of the two control poses.
-struct RegistrationNormalEquations {
-  Matrix12d H = Matrix12d::Zero();
-  Vector12d g = Vector12d::Zero();
-  double cost = 0.0;  ///< ½ sum rho(s_i), exact.
-};
-
-/// Evaluates PointToPlaneCost for all points of a segment in one pass.
-///
-/// Instead of two 6x6 interpolation Jacobians a point, everything happens in the begin frame, where
-/// the derivatives c and d of the paper factor into a part of the point and a part of the segment:
-///
-///   p0 = Exp(alpha tau) p,  n0 = R_beginᵀ n,  j = [n0; p0 x n0],  v = alpha Jl(alpha tau)ᵀ j
-///   dr/dT_begin = jᵀ - vᵀ Jl⁻¹(tau),   dr/dT_end = vᵀ Jr⁻¹(tau)
-///
-/// (Adj(Exp(-alpha tau)) Jl(alpha tau) = Jr(alpha tau), and moving both poses by one world
-/// perturbation moves the interpolated pose by it). So H and g are summed over u = [j; v] and
-/// turned into pose coordinates once, exactly.
-class SegmentLinearizer {
- public:
-  SegmentLinearizer(const SE3& T_begin, const SE3& T_end, const RegistrationNoise& noise);
-
-  /// Sums over [j; v]; sums of disjoint point ranges may be added, in a fixed order where results
-  /// must not depend on threads.
-  struct Sum {
-    Matrix12d H = Matrix12d::Zero();  ///< Upper triangle only.
-    Vector12d g = Vector12d::Zero();
-    double cost = 0.0;
-    void Add(const Sum& other);
-  };
-
-  Sum Linearize(const RegistrationPoint* points, size_t count) const;
-  double Cost(const RegistrationPoint* points, size_t count) const;
-
-  /// Turns a sum over [j; v] into the normal equations of [xi_begin; xi_end].
-  RegistrationNormalEquations Finish(const Sum& sum) const;
-
- private:
-  template <typename T>
-  struct Lanes;
-  template <typename T>
-  void LinearizeLanes(const RegistrationPoint* points, int group, Lanes<T>* sums) const;
-  template <typename T>
-  void RunLinearize(const RegistrationPoint* points, size_t count, Sum* sum) const;
-  template <typename T>
-  double RunCost(const RegistrationPoint* points, size_t count) const;
-  size_t Vectorised(size_t count) const;
-
-  SegmentMotion motion_;
-  RegistrationNoise noise_;
-};
-
-/// The normal equations of a whole segment, on the calling thread.
-RegistrationNormalEquations LinearizeSegment(const std::vector<RegistrationPoint>& points,
-                                             const SE3& T_begin, const SE3& T_end,
-                                             const RegistrationNoise& noise);
 
 /// The registration of a whole segment as one block of 13 residuals with the cost, gradient and
 /// Gauss-Newton Hessian of one PointToPlaneCost a point with a RobustKernelLoss. With the normal

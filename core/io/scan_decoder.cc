@@ -140,9 +140,8 @@ std::size_t PlaceTimes(const TimeConvention& convention, std::int64_t stamp_ns, 
   const std::int64_t reach_ns = ReachNs(convention);
   std::int64_t zero_ns = convention.clock_offset_ns;
   // A stamp at the end of what 64 bits hold has no times after it.
-  const bool has_zero =
-      convention.IsAbsolute() ||
-      !__builtin_add_overflow(stamp_ns, convention.ZeroAfterStampNs(), &zero_ns);
+  const bool has_zero = convention.IsAbsolute() ||
+                        !__builtin_add_overflow(stamp_ns, convention.ZeroAfterStampNs(), &zero_ns);
   std::size_t broken = 0;
   for (LidarPoint& point : scan->points) {
     std::int64_t t_ns = 0;

@@ -9,7 +9,7 @@
 #include "core/odometry/stopwatch.h"
 #include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
-#include "core/odometry/window/graduation.h"
+#include "core/odometry/window/graduated_kernel.h"
 #include "core/odometry/window/points_to_world.h"
 #include "core/odometry/window/push_segment.h"
 #include "manifolds/se3_interpolation.h"
@@ -82,7 +82,7 @@ void Odometry::ProcessSegments() {
 
 void Odometry::Take(SegmentCloud cloud) {
   if (first_scan_) FindFirstVelocity(cloud);
-  if (cloud.is_gap && !starvation_.was_fed()) {
+  if (cloud.is_gap && !support_.was_supported()) {
     SettleWindow(cloud.end_ns);
     window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
     return;
@@ -122,7 +122,7 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
   } else {
     first_scan_ = cloud;
   }
-  starvation_.Begin(cloud.end_ns);
+  support_.Begin(cloud.end_ns);
 }
 
 /// A scan of one time does not tell how it moves; two of them do.
@@ -150,7 +150,7 @@ void Odometry::Step(SegmentCloud cloud) {
     TakeBackAndSearch(predicted);
     return;
   }
-  NoteFed();
+  NoteSupport();
   window_.is_believed = IsBelievable(statistics, window_);
   if (window_.is_believed) {
     Learn(predicted.back());
@@ -168,16 +168,16 @@ void Odometry::Step(SegmentCloud cloud) {
 
 /// Until the step is small: which planes the points belong to, and the poses that bring them there.
 void Odometry::AssociateAndSolve(WindowStatistics* s) {
-  Graduation graduation(window_);
+  GraduatedKernel kernel(window_);
   Segment* newest = &window_.segments.back();
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
     s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, &window_);
     s->milliseconds_associate += watch.Milliseconds();
-    const bool is_widened = graduation.Widen(newest);
+    const bool is_widened = kernel.Widen(newest);
     s->Add(solver_->Solve(&window_), options_.solver);
     if (is_widened) {
-      graduation.Restore(newest);
+      kernel.Restore(newest);
       s->has_converged = false;
     }
     s->milliseconds_solve += watch.Milliseconds();
@@ -194,7 +194,7 @@ void Odometry::Learn(const SE3& T_world_predicted) {
 /// not hold the body, it may be where the map does not know it: a map that grew there would prove
 /// it right.
 bool Odometry::MayEnterMap(const Segment& segment) const {
-  if (IsStarved(window_, segment)) return false;
+  if (IsUnsupported(window_, segment)) return false;
   if (lasting_flags_ == 0) return true;
   const bool is_open = lasting_flags_ == kFlagDegenerate;
   return ShareOnMap(window_, segment) >= (is_open ? kMayEnterMapIfOpen : kMayEnterMap);
@@ -216,7 +216,7 @@ void Odometry::Leave(WindowStatistics* statistics) {
   SettleFront();
   const SE3 T_begin = window_.T_world_begin;
   // The first points agree with nothing.
-  const bool is_of_the_world = !starvation_.was_fed() || MayEnterMap(window_.segments.front());
+  const bool is_of_the_world = !support_.was_supported() || MayEnterMap(window_.segments.front());
   const Segment oldest = Marginalize(options_.marginalization, &window_);
   statistics->milliseconds_marginalize += watch.Milliseconds();
   if (is_of_the_world) AddToMap(oldest.cloud, T_begin, oldest.T_world_end);

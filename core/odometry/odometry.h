@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/odometry/health/starvation.h"
+#include "core/odometry/health/support.h"
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
 #include "core/odometry/parallel/parallel_for.h"
@@ -75,7 +75,7 @@ class Odometry {
   void GetLost(const ReturnSweep& sweep);
   bool IsBlind() const;
   void TakeBackAndSearch(const std::vector<SE3>& predicted);
-  void NoteFed();
+  void NoteSupport();
   void AssociateAndSolve(WindowStatistics* statistics);
   void Learn(const SE3& T_world_predicted);
   bool MayEnterMap(const Segment& segment) const;
@@ -95,7 +95,7 @@ class Odometry {
   MotionPrior motion_prior_;
   std::unique_ptr<WindowSolver> solver_;
   LossWatch loss_watch_;
-  StarvationWatch starvation_;
+  SupportWatch support_;
   MeanAttitude attitude_;
   std::optional<ReturnSearch> search_;  ///< While nobody knows where the body is.
   Window window_;

@@ -17,8 +17,8 @@ constexpr double kFoundSigma_rad = 0.05;
 /// Whether the newest points do not hold the window, and did not for so long that its prediction is
 /// no place to start from.
 bool Odometry::IsBlind() const {
-  return IsStarved(window_, window_.segments.back()) &&
-         starvation_.IsBlind(window_.EndNs(), motion_prior_.density());
+  return IsUnsupported(window_, window_.segments.back()) &&
+         support_.IsBlind(window_.EndNs(), motion_prior_.density());
 }
 
 /// The newest segment leaves the window as it came, and is looked for in the map.
@@ -32,10 +32,10 @@ void Odometry::TakeBackAndSearch(const std::vector<SE3>& predicted) {
 
 /// The newest segment that its points hold. One that sees a new part of the world is held as soon
 /// as the map has grown there.
-void Odometry::NoteFed() {
+void Odometry::NoteSupport() {
   for (std::size_t k = window_.segments.size(); k-- > 0;) {
-    if (IsStarved(window_, window_.segments[k])) continue;
-    starvation_.Fed(window_.segments[k].cloud.end_ns);
+    if (IsUnsupported(window_, window_.segments[k])) continue;
+    support_.Supported(window_.segments[k].cloud.end_ns);
     return;
   }
 }
@@ -44,7 +44,7 @@ void Odometry::NoteFed() {
 void Odometry::BeginSearch() {
   const int size = window_.size();
   const Vector6d velocity = size > 0 ? window_.Velocity(size - 1) : window_.begin_velocity;
-  search_.emplace(LastSeen{starvation_.fed_until_ns(), window_.EndNs(), window_.Pose(size),
+  search_.emplace(LastSeen{support_.supported_until_ns(), window_.EndNs(), window_.Pose(size),
                            velocity, motion_prior_.density()},
                   attitude_, options_);
 }
@@ -79,7 +79,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
     AddToMap(sweep.cloud, T_world_begin, T_world_begin);
     segments.clear();
   }
-  starvation_.Fed(sweep.cloud.begin_ns);
+  support_.Supported(sweep.cloud.begin_ns);
   loss_watch_ = LossWatch(options_.lost);
   search_.reset();
   for (SegmentCloud& segment : segments) Take(std::move(segment));
@@ -89,7 +89,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
 /// if it had gone on as it did.
 void Odometry::GetLost(const ReturnSweep& sweep) {
   SettleWindow(sweep.cloud.begin_ns);
-  if (!lost_at_ns_) lost_at_ns_ = starvation_.fed_until_ns() + 1;
+  if (!lost_at_ns_) lost_at_ns_ = support_.supported_until_ns() + 1;
   map_ = MapPyramid(options_.map);
   BeginMap(sweep.cloud, search_->Predict(sweep.cloud.begin_ns), sweep.tau, kFlagGap | kFlagLost);
   search_.reset();

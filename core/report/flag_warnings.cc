@@ -36,9 +36,9 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
                        std::to_string(gap.poses) + (gap.poses == 1 ? " stretch" : " stretches") +
                        "; the motion in between is unknown (flag gap in flags.csv)");
   }
-  const FlaggedPoses starved = total("no_points");
-  if (starved.seconds > kWorthSaying * all_s) {
-    warnings.push_back("for " + SecondsText(starved.seconds, all_s) +
+  const FlaggedPoses unsupported = total("no_points");
+  if (unsupported.seconds > kWorthSaying * all_s) {
+    warnings.push_back("for " + SecondsText(unsupported.seconds, all_s) +
                        " hardly any point lay on the map; the motion prior carries the poses there "
                        "(flag no_points)");
   }

@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "factors/segment_registration.h"
+#include "factors/segment_linearizer.h"
 #include "tests/support/autodiff_twins.h"
 #include "tests/support/factor_testing.h"
 #include "tests/support/random_poses.h"

@@ -12,6 +12,7 @@
 #include "core/odometry/solvers/ceres_steps.h"
 #include "core/odometry/solvers/prepare_registration.h"
 #include "factors/point_to_plane.h"
+#include "factors/segment_registration.h"
 #include "manifolds/se3_manifold.h"
 
 namespace trajlo {

@@ -2,7 +2,7 @@
 #include "core/odometry/health/belief.h"
 
 #include "core/odometry/health/condition.h"
-#include "core/odometry/health/starvation.h"
+#include "core/odometry/health/support.h"
 
 namespace trajlo {
 namespace {
@@ -40,14 +40,14 @@ void Revert(const std::vector<SE3>& poses, Window* window) {
 void Judge(const LostOptions& options, double points_per_error, Window* window,
            WindowStatistics* statistics) {
   Segment& newest = window->segments.back();
-  newest.feigned =
-      FeignedBy(newest.points, window->Pose(window->size() - 1), newest.T_world_end, window->noise);
+  newest.spurious = SpuriousInformationOf(newest.points, window->Pose(window->size() - 1),
+                                          newest.T_world_end, window->noise);
   if (!window->is_believed) {
     statistics->flags |= kFlagReverted;
   } else if (!statistics->has_converged) {
     statistics->flags |= kFlagNotConverged;
   }
-  if (IsStarved(*window, newest)) statistics->flags |= kFlagNoPoints;
+  if (IsUnsupported(*window, newest)) statistics->flags |= kFlagNoPoints;
   const WindowCondition condition = ConditionOf(*window, points_per_error);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;

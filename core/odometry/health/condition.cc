@@ -14,7 +14,7 @@ constexpr double kSigmas = 3.0;
 /// H and F of a rigid motion of the window, in the frame of its newest pose.
 struct RigidInformation {
   Matrix6d H = Matrix6d::Zero();
-  FeignedInformation feigned;  ///< Its sums; the groups stay with the segments.
+  SpuriousInformation spurious;  ///< Its sums; the groups stay with the segments.
   double points = 0.0;
 
   explicit RigidInformation(const Window& window) {
@@ -27,32 +27,32 @@ struct RigidInformation {
           se3::Adjoint(window.Pose(k + 1).Inverse() * newest);
       H += A.transpose() * segment.registration.H * A;
       const Matrix6d A_end = A.bottomRows<6>();
-      H -= A_end.transpose() * segment.feigned.no_surface * A_end;
-      feigned.mean += A_end.transpose() * segment.feigned.mean * A_end;
-      feigned.sum += segment.feigned.sum;
-      feigned.sum_of_squares += segment.feigned.sum_of_squares;
+      H -= A_end.transpose() * segment.spurious.no_surface * A_end;
+      spurious.mean += A_end.transpose() * segment.spurious.mean * A_end;
+      spurious.sum += segment.spurious.sum;
+      spurious.sum_of_squares += segment.spurious.sum_of_squares;
       points += static_cast<double>(segment.points.size());
     }
   }
 };
 
 /// 1 + 3 sqrt(2 / N_F): the sum of N_F squares of Gaussian noise, in units of its mean.
-double LargestFeigned(const FeignedInformation& feigned, double points_per_error) {
-  if (!(feigned.sum > 0.0)) return 1.0;
-  const double count = feigned.sum * feigned.sum / (points_per_error * feigned.sum_of_squares);
+double LargestSpurious(const SpuriousInformation& spurious, double points_per_error) {
+  if (!(spurious.sum > 0.0)) return 1.0;
+  const double count = spurious.sum * spurious.sum / (points_per_error * spurious.sum_of_squares);
   return 1.0 + kSigmas * std::sqrt(2.0 / count);
 }
 
 /// s(u): how much the information about u, a rigid motion in the frame of the newest pose, would
 /// differ with other places.
 double SpreadOverPlaces(const Window& window, const Vector6d& u) {
-  constexpr int kGroups = FeignedInformation::kGroups;
+  constexpr int kGroups = SpuriousInformation::kGroups;
   Eigen::Array<double, kGroups, 1> sums = Eigen::Array<double, kGroups, 1>::Zero();
   const SE3& newest = window.Pose(window.size());
   for (const Segment& segment : window.segments) {
     const Vector6d u_end = se3::Adjoint(segment.T_world_end.Inverse() * newest) * u;
     for (int i = 0; i < kGroups; ++i) {
-      sums[i] += segment.feigned.by_place[static_cast<std::size_t>(i)].Along(u_end);
+      sums[i] += segment.spurious.by_place[static_cast<std::size_t>(i)].Along(u_end);
     }
   }
   return std::sqrt((sums - sums.mean()).square().sum() * kGroups / (kGroups - 1.0));
@@ -68,8 +68,8 @@ WindowCondition ConditionOf(const Window& window, double points_per_error) {
   if (!(translation > 0.0) || !(rotation > 0.0)) return condition;
   Vector6d scaling = Vector6d::Ones();
   scaling.tail<3>().setConstant(std::sqrt(translation / rotation));
-  const Matrix6d certain = information.H - LargestFeigned(information.feigned, points_per_error) *
-                                               information.feigned.mean;
+  const Matrix6d certain = information.H - LargestSpurious(information.spurious, points_per_error) *
+                                               information.spurious.mean;
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scaling.asDiagonal() * certain *
                                                       scaling.asDiagonal());
   double least = std::numeric_limits<double>::infinity();

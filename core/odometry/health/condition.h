@@ -8,7 +8,7 @@ namespace trajlo {
 /// How the points of a window hold it where they hold it least: a rigid motion of all its control
 /// poses, in the frame of the newest one.
 struct WindowCondition {
-  /// Information (1/m²) about that motion that is certain; 0 where all of it may be feigned. The
+  /// Information (1/m²) about that motion that is certain; 0 where all of it may be spurious. The
   /// points alone give a standard deviation of 1 / sqrt(smallest_eigenvalue) metres.
   double smallest_eigenvalue = 0.0;
   /// [rho; theta], body frame, unit length. Rotations are in metres: at the lever arm at which the
@@ -22,8 +22,8 @@ struct WindowCondition {
 ///   (1 - 6 / N) (uᵀ (H - (1 + 3 sqrt(2 / N_F)) F) u - 3 s(u))
 ///
 /// is least. Three things are taken off, each with three standard deviations:
-///   - F, what the noise of normals feigns of the registration's information H (which is without
-///     points whose plane may be no surface): FeignedInformation.
+///   - F, the spurious part of the registration's information H (which is without
+///     points whose plane may be no surface): SpuriousInformation.
 ///   - What hangs on few places. H is a sum over places where planes were fitted, and some of them
 ///     are false. If the places had been others, the sum would have been another. s(u) is the
 ///     standard deviation of that, from the differences between 16 groups of places: it is the sum

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/odometry/window/association.h"
-#include "factors/segment_registration.h"
+#include "factors/segment_linearizer.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {

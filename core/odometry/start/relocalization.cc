@@ -7,7 +7,7 @@
 
 #include "core/odometry/sensing/choose_evenly.h"
 #include "core/odometry/window/association.h"
-#include "factors/segment_registration.h"
+#include "factors/segment_linearizer.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {

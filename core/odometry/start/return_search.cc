@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/odometry/health/starvation.h"
+#include "core/odometry/health/support.h"
 
 namespace trajlo {
 namespace {
@@ -94,7 +94,7 @@ SE3 ReturnSearch::Predict(std::int64_t t_ns) const {
 }
 
 SearchRegion ReturnSearch::Region(std::int64_t t_ns) const {
-  const double unseen_s = Seconds(t_ns - last_.fed_ns);
+  const double unseen_s = Seconds(t_ns - last_.supported_until_ns);
   const double moving_s = std::min(Seconds(t_ns - last_.t_ns), kLongestPrediction_s);
   const double moved_s = std::min(unseen_s, kLongestPrediction_s);
   SearchRegion region;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/options/describe.h"
-#include "factors/segment_registration.h"
+#include "factors/segment_linearizer.h"
 
 namespace trajlo {
 

@@ -8,10 +8,10 @@
 
 #include "core/odometry/sensing/segment_cloud.h"
 #include "core/odometry/window/association.h"
-#include "core/odometry/window/feigned_information.h"
+#include "core/odometry/window/spurious_information.h"
 #include "factors/marginalization_prior.h"
 #include "factors/registration_point.h"
-#include "factors/segment_registration.h"
+#include "factors/segment_linearizer.h"
 #include "factors/smoothness.h"
 #include "factors/white_noise_acceleration.h"
 #include "manifolds/se3.h"
@@ -39,8 +39,8 @@ struct Segment {
   RegistrationNormalEquations registration;
   /// What `registration` comes from; nothing where `points` are others now.
   std::optional<LinearizedRegistration> linearization;
-  /// Of the registration's information, what the noise of normals feigns.
-  FeignedInformation feigned;
+  /// The part of the information of the registration that comes from the noise of normals.
+  SpuriousInformation spurious;
   unsigned flags = 0;  ///< WindowFlag bits of the window in which this segment was the newest.
 
   double Duration_s() const { return 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns); }

@@ -8,6 +8,7 @@
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/window_equations.h"
+#include "factors/segment_registration.h"
 #include "manifolds/se3_manifold.h"
 #include "tests/support/test_window.h"
 

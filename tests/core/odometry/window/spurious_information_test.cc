@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/feigned_information.h"
+#include "core/odometry/window/spurious_information.h"
 
 #include <gtest/gtest.h>
 
@@ -39,17 +39,17 @@ Matrix6d RigidH(const std::vector<RegistrationPoint>& points, const SE3& T_begin
   return A.transpose() * LinearizeSegment(points, T_begin, T_end, noise).H * A;
 }
 
-TEST(FeignedInformation, IsInTheMeanWhatNoisyNormalsAddToTheTrueInformation) {
+TEST(SpuriousInformation, IsInTheMeanWhatNoisyNormalsAddToTheTrueInformation) {
   Random random(4);
   const RegistrationNoise noise = {0.05, {KernelKind::kNone, 1.0}};
   const SE3 T_begin = random.Pose();
   const SE3 T_end = Plus(T_begin, random.Tangent(0.3, 0.2));
   constexpr double kSigma_rad = 0.1;
-  Matrix6d truth = Matrix6d::Zero(), noisy = Matrix6d::Zero(), feigned = Matrix6d::Zero();
+  Matrix6d truth = Matrix6d::Zero(), noisy = Matrix6d::Zero(), spurious = Matrix6d::Zero();
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<RegistrationPoint> points = NoisyPoints(&random, 100, false, kSigma_rad);
     noisy += RigidH(points, T_begin, T_end, noise);
-    feigned += FeignedBy(points, T_begin, T_end, noise).mean;
+    spurious += SpuriousInformationOf(points, T_begin, T_end, noise).mean;
     for (RegistrationPoint& point : points) {
       // The corridor has normals along y and z only.
       int axis;
@@ -58,14 +58,14 @@ TEST(FeignedInformation, IsInTheMeanWhatNoisyNormalsAddToTheTrueInformation) {
     }
     truth += RigidH(points, T_begin, T_end, noise);
   }
-  const double size = feigned.diagonal().maxCoeff();
+  const double size = spurious.diagonal().maxCoeff();
   ASSERT_GT((noisy - truth).diagonal().maxCoeff(), 0.25 * size);
   // Noise of 0.1 rad also shortens the true component of a normal, by twice its variance.
-  EXPECT_LT((noisy - feigned - truth).norm(), 0.1 * size + 0.03 * truth.norm());
+  EXPECT_LT((noisy - spurious - truth).norm(), 0.1 * size + 0.03 * truth.norm());
   // Along the corridor there is nothing but noise.
   Vector6d along = Vector6d::Zero();
   along.head<3>() = T_end.q.conjugate() * Eigen::Vector3d::UnitX();
-  EXPECT_NEAR(along.dot((noisy - feigned) * along) / along.dot(noisy * along), 0.0, 0.1);
+  EXPECT_NEAR(along.dot((noisy - spurious) * along) / along.dot(noisy * along), 0.0, 0.1);
 }
 
 Window WindowOf(std::vector<RegistrationPoint> points) {
@@ -74,12 +74,12 @@ Window WindowOf(std::vector<RegistrationPoint> points) {
   Segment segment;
   segment.points = std::move(points);
   segment.registration = LinearizeSegment(segment.points, SE3(), SE3(), window.noise);
-  segment.feigned = FeignedBy(segment.points, SE3(), SE3(), window.noise);
+  segment.spurious = SpuriousInformationOf(segment.points, SE3(), SE3(), window.noise);
   window.segments.push_back(std::move(segment));
   return window;
 }
 
-TEST(FeignedInformation, ACorridorOfNoisyNormalsTellsNothingAndARoomDoes) {
+TEST(SpuriousInformation, ACorridorOfNoisyNormalsTellsNothingAndARoomDoes) {
   Random random(5);
   for (int trial = 0; trial < 50; ++trial) {
     Window corridor = WindowOf(NoisyPoints(&random, 1000, false, 0.15));
@@ -87,7 +87,7 @@ TEST(FeignedInformation, ACorridorOfNoisyNormalsTellsNothingAndARoomDoes) {
     EXPECT_EQ(condition.smallest_eigenvalue, 0.0);
     EXPECT_GT(std::abs(condition.weak_direction[0]), 0.9);
     // What the noise seems to tell: 5 cm.
-    corridor.segments[0].feigned = {};
+    corridor.segments[0].spurious = {};
     condition = ConditionOf(corridor, 10.0);
     EXPECT_GT(condition.smallest_eigenvalue, 1.0 / (0.05 * 0.05));
 
@@ -108,7 +108,7 @@ std::vector<RegistrationPoint> CorridorWithEndWall(Random* random, int count, do
   return points;
 }
 
-TEST(FeignedInformation, WhatHangsOnFewPlacesMayBeFalse) {
+TEST(SpuriousInformation, WhatHangsOnFewPlacesMayBeFalse) {
   Random random(7);
   // A point alone tells 10 cm (1/m²: 100). Four hundred on one place may be one mistake.
   EXPECT_LT(ConditionOf(WindowOf(CorridorWithEndWall(&random, 5, 1.5)), 10.0).smallest_eigenvalue,
@@ -121,7 +121,7 @@ TEST(FeignedInformation, WhatHangsOnFewPlacesMayBeFalse) {
             2500.0);
 }
 
-TEST(FeignedInformation, APlaneThatMayBeNoSurfaceTellsNothing) {
+TEST(SpuriousInformation, APlaneThatMayBeNoSurfaceTellsNothing) {
   Random random(8);
   std::vector<RegistrationPoint> points = CorridorWithEndWall(&random, 400, 3.0);
   for (RegistrationPoint& point : points) {
@@ -134,18 +134,18 @@ TEST(FeignedInformation, APlaneThatMayBeNoSurfaceTellsNothing) {
   EXPECT_GT(std::abs(condition.weak_direction[0]), 0.9);
 }
 
-TEST(FeignedInformation, GroupsOfPlacesAddUpToTheInformation) {
+TEST(SpuriousInformation, GroupsOfPlacesAddUpToTheInformation) {
   Random random(9);
   const RegistrationNoise noise = {0.05, {KernelKind::kCauchy, 1.0}};
   const SE3 T_begin = random.Pose();
   const SE3 T_end = Plus(T_begin, random.Tangent(0.3, 0.2));
   const std::vector<RegistrationPoint> points = NoisyPoints(&random, 500, true, 0.1);
-  const FeignedInformation feigned = FeignedBy(points, T_begin, T_end, noise);
+  const SpuriousInformation spurious = SpuriousInformationOf(points, T_begin, T_end, noise);
   const Matrix6d H = RigidH(points, T_begin, T_end, noise);
   const Vector6d u = random.Tangent(1.0, 1.0);
   Matrix6d sum = Matrix6d::Zero();
   double along = 0.0;
-  for (const OuterSum& group : feigned.by_place) {
+  for (const OuterSum& group : spurious.by_place) {
     sum += group.Matrix();
     along += group.Along(u);
   }
@@ -153,7 +153,7 @@ TEST(FeignedInformation, GroupsOfPlacesAddUpToTheInformation) {
   EXPECT_NEAR(along, u.dot(H * u), 1e-9 * along);
 }
 
-TEST(FeignedInformation, AsManyErrorsAsUnknownsTellNothing) {
+TEST(SpuriousInformation, AsManyErrorsAsUnknownsTellNothing) {
   Random random(6);
   const Window few = WindowOf(NoisyPoints(&random, 60, true, 0.0));
   EXPECT_EQ(ConditionOf(few, 10.0).smallest_eigenvalue, 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/graduation.h"
+#include "core/odometry/window/graduated_kernel.h"
 
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/window_equations.h"
@@ -18,7 +18,7 @@ constexpr std::size_t kAsked = 128;
 
 }  // namespace
 
-Graduation::Graduation(const Window& window) : reach_(Matrix6d::Zero()) {
+GraduatedKernel::GraduatedKernel(const Window& window) : reach_(Matrix6d::Zero()) {
   if (window.noise.kernel.kind == KernelKind::kNone) return;
   const double kernel_m = window.noise.kernel.width * window.noise.sigma_m;
   const Matrix6d covariance = PoseCovariance(AssembleWindow(window), window.size());
@@ -26,7 +26,7 @@ Graduation::Graduation(const Window& window) : reach_(Matrix6d::Zero()) {
   reach_ = kStandardDeviations * kStandardDeviations / (kernel_m * kernel_m) * covariance;
 }
 
-bool Graduation::Widen(Segment* newest) {
+bool GraduatedKernel::Widen(Segment* newest) {
   std::vector<RegistrationPoint>& points = newest->points;
   const Eigen::Matrix3d R_end_world = newest->T_world_end.q.conjugate().toRotationMatrix();
   const auto f = [&](const RegistrationPoint& point) {
@@ -56,7 +56,7 @@ bool Graduation::Widen(Segment* newest) {
   return true;
 }
 
-void Graduation::Restore(Segment* newest) const {
+void GraduatedKernel::Restore(Segment* newest) const {
   for (std::size_t i = 0; i < weights_.size(); ++i) newest->points[i].weight = weights_[i];
   newest->linearization.reset();
 }

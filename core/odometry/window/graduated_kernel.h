@@ -22,10 +22,10 @@ namespace trajlo {
 /// sqrt(weight), becomes c sqrt(1 + f). Where the prediction is good, f is small for most points
 /// and nothing happens. Idea: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al.,
 /// Graduated Non-Convexity for Robust Spatial Perception, RA-L 2020.
-class Graduation {
+class GraduatedKernel {
  public:
   /// Before the newest segment of `window` is associated for the first time.
-  explicit Graduation(const Window& window);
+  explicit GraduatedKernel(const Window& window);
 
   /// Widens the kernels of the newest segment's points for one round; false if most need it
   /// no more.

@@ -10,7 +10,7 @@ namespace trajlo {
 /// Whether the points of a segment do not hold it at its present poses: most of those that have a
 /// plane of the map do not lie on it, or only a handful does. So it is while a LiDAR is covered or
 /// silent. Points without a plane say nothing: they may see a new part of the world.
-bool IsStarved(const Window& window, const Segment& segment);
+bool IsUnsupported(const Window& window, const Segment& segment);
 
 /// The share of all points of a segment that lie on planes of the map: nine of ten at the right
 /// pose in a part of the world that the map knows, half of them or fewer in wrong minima (simulated
@@ -20,26 +20,26 @@ double ShareOnMap(const Window& window, const Segment& segment);
 /// Notices when the motion prior has carried the window for too long. Its uncertainty grows with
 /// sqrt(q t³ / 3); once it is more than a registration from the prediction bridges, the place must
 /// be looked for. See ReturnSearch.
-class StarvationWatch {
+class SupportWatch {
  public:
   /// A map begins, of what was seen until `end_ns`.
-  void Begin(std::int64_t end_ns) { fed_until_ns_ = end_ns; }
+  void Begin(std::int64_t end_ns) { supported_until_ns_ = end_ns; }
   /// A segment that ends at `end_ns` was held by its points.
-  void Fed(std::int64_t end_ns) {
-    fed_until_ns_ = end_ns;
-    was_fed_ = true;
+  void Supported(std::int64_t end_ns) {
+    supported_until_ns_ = end_ns;
+    was_supported_ = true;
   }
   /// False: there is no place yet that could be found again.
-  bool was_fed() const { return was_fed_; }
+  bool was_supported() const { return was_supported_; }
 
-  std::int64_t fed_until_ns() const { return fed_until_ns_; }
+  std::int64_t supported_until_ns() const { return supported_until_ns_; }
   /// Whether the prediction for `t_ns` is too uncertain to start from; `density` is that of the
   /// acceleration, see MotionPrior.
   bool IsBlind(std::int64_t t_ns, const Vector6d& density) const;
 
  private:
-  std::int64_t fed_until_ns_ = 0;
-  bool was_fed_ = false;
+  std::int64_t supported_until_ns_ = 0;
+  bool was_supported_ = false;
 };
 
 /// Standard deviation of a body's position (m) or attitude (rad) that moved unseen for `duration_s`

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/feigned_information.h"
+#include "core/odometry/window/spurious_information.h"
 
 #include <cmath>
 #include <cstdint>
@@ -21,7 +21,7 @@ std::size_t GroupOf(const Eigen::Vector3d& x_world) {
     hash = (hash ^ static_cast<std::uint32_t>(coordinate)) * 0x9E3779B97F4A7C15u;
     hash ^= hash >> 32;
   }
-  return hash % FeignedInformation::kGroups;
+  return hash % SpuriousInformation::kGroups;
 }
 
 /// sum a_i G_i G_iᵀ from the sums of a_i, a_i x_i and a_i x_i x_iᵀ.
@@ -68,13 +68,14 @@ Matrix6d OuterSum::Matrix() const {
   return matrix;
 }
 
-FeignedInformation FeignedBy(const std::vector<RegistrationPoint>& points, const SE3& T_begin,
-                             const SE3& T_end, const RegistrationNoise& noise) {
+SpuriousInformation SpuriousInformationOf(const std::vector<RegistrationPoint>& points,
+                                          const SE3& T_begin, const SE3& T_end,
+                                          const RegistrationNoise& noise) {
   const SegmentMotion motion(T_begin, T_end);
   const SE3 T_end_world = T_end.Inverse();
   const Eigen::Matrix3d R_end_world = T_end_world.q.toRotationMatrix();
   const double information = 1.0 / (noise.sigma_m * noise.sigma_m);
-  FeignedInformation feigned;
+  SpuriousInformation spurious;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   OuterSum along_normals, no_surface;
@@ -93,16 +94,16 @@ FeignedInformation FeignedBy(const std::vector<RegistrationPoint>& points, const
       continue;
     }
     const double a = w * point.normal_variance_rad2;
-    feigned.by_place[GroupOf(x_world)].Add(w, product);
+    spurious.by_place[GroupOf(x_world)].Add(w, product);
     along_normals.Add(a, product);
     first += a * x;
     second.noalias() += a * x * x.transpose();
-    feigned.sum += a;
-    feigned.sum_of_squares += a * a;
+    spurious.sum += a;
+    spurious.sum_of_squares += a * a;
   }
-  feigned.mean = IsotropicSum(feigned.sum, first, second) - along_normals.Matrix();
-  feigned.no_surface = no_surface.Matrix();
-  return feigned;
+  spurious.mean = IsotropicSum(spurious.sum, first, second) - along_normals.Matrix();
+  spurious.no_surface = no_surface.Matrix();
+  return spurious;
 }
 
 }  // namespace trajlo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/health/starvation.h"
+#include "core/odometry/health/support.h"
 
 #include <gtest/gtest.h>
 
@@ -25,30 +25,32 @@ Window Standing(int all, int on_plane, int off_plane) {
   return window;
 }
 
-bool IsNewestStarved(const Window& window) { return IsStarved(window, window.segments.back()); }
+bool IsNewestUnsupported(const Window& window) {
+  return IsUnsupported(window, window.segments.back());
+}
 
-TEST(Starvation, PointsThatSeeANewPartOfTheWorldDoNotStarveABody) {
+TEST(Support, PointsThatSeeANewPartOfTheWorldLeaveABodySupported) {
   // A fast turn: one point in twenty is where the map has been, and agrees with it.
-  EXPECT_FALSE(IsNewestStarved(Standing(1000, 50, 0)));
-  EXPECT_FALSE(IsNewestStarved(Standing(1000, 50, 40)));
+  EXPECT_FALSE(IsNewestUnsupported(Standing(1000, 50, 0)));
+  EXPECT_FALSE(IsNewestUnsupported(Standing(1000, 50, 40)));
 }
 
-TEST(Starvation, PointsThatDisagreeWithTheirPlanesHoldNothing) {
-  EXPECT_TRUE(IsNewestStarved(Standing(1000, 300, 400)));
+TEST(Support, PointsThatDisagreeWithTheirPlanesHoldNothing) {
+  EXPECT_TRUE(IsNewestUnsupported(Standing(1000, 300, 400)));
 }
 
-TEST(Starvation, AHandfulOfPointsHoldsNothing) {
-  EXPECT_TRUE(IsNewestStarved(Standing(10, 10, 0)));
-  EXPECT_TRUE(IsNewestStarved(Standing(0, 0, 0)));
+TEST(Support, AHandfulOfPointsHoldsNothing) {
+  EXPECT_TRUE(IsNewestUnsupported(Standing(10, 10, 0)));
+  EXPECT_TRUE(IsNewestUnsupported(Standing(0, 0, 0)));
 }
 
-TEST(Starvation, TheWatchIsBlindWhenThePredictionIsTooUncertainToStartFrom) {
-  StarvationWatch watch;
+TEST(Support, TheWatchIsBlindWhenThePredictionIsTooUncertainToStartFrom) {
+  SupportWatch watch;
   Vector6d density;
   density << 3, 3, 3, 0.3, 0.3, 0.3;
   watch.Begin(0);
   EXPECT_FALSE(watch.IsBlind(10'000'000'000, density)) << "nothing was found yet";
-  watch.Fed(1'000'000'000);
+  watch.Supported(1'000'000'000);
   // Three standard deviations are a metre where t³ = 1 / 9 s³.
   EXPECT_FALSE(watch.IsBlind(1'475'000'000, density));
   EXPECT_TRUE(watch.IsBlind(1'485'000'000, density));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/graduation.h"
+#include "core/odometry/window/graduated_kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -56,22 +56,22 @@ Window OneSegment(const SE3& T_end, const SE3& expected, double sigma_m, double 
   return window;
 }
 
-/// The rounds of Odometry, with or without graduation.
+/// The rounds of Odometry, with or without a graduated kernel.
 void Estimate(const MapPyramid& map, bool is_graduated, Window* window) {
   ThreadPool threads(1);
   const SolverOptions options;
   const auto solver = MakeWindowSolver(options, &threads);
-  Graduation graduation(*window);
+  GraduatedKernel kernel(*window);
   Segment* newest = &window->segments.back();
   for (int round = 0; round < 12; ++round) {
     AssociateWindow(map, options.step_tolerance, &threads, window);
-    const bool is_widened = is_graduated && graduation.Widen(newest);
+    const bool is_widened = is_graduated && kernel.Widen(newest);
     solver->Solve(window);
-    if (is_widened) graduation.Restore(newest);
+    if (is_widened) kernel.Restore(newest);
   }
 }
 
-TEST(Graduation, FindsTheMapAgainFromFarOff) {
+TEST(GraduatedKernel, FindsTheMapAgainFromFarOff) {
   const MapPyramid map = BoxMap();
   int found_with = 0, found_without = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -90,18 +90,18 @@ TEST(Graduation, FindsTheMapAgainFromFarOff) {
   EXPECT_LT(found_without, found_with / 2);
 }
 
-TEST(Graduation, WidensEachKernelByHowFarThePredictionMayBeOffThere) {
+TEST(GraduatedKernel, WidensEachKernelByHowFarThePredictionMayBeOffThere) {
   const MapPyramid map = BoxMap();
   testing::Random random(3);
   Window window = OneSegment(SE3(), SE3(), 0.3, 0.1, &random);
   const Matrix6d P = PoseCovariance(AssembleWindow(window), 1);
-  Graduation graduation(window);
+  GraduatedKernel kernel(window);
   ThreadPool threads(1);
   AssociateWindow(map, {}, &threads, &window);
   Segment& newest = window.segments[0];
   const std::vector<RegistrationPoint> before = newest.points;
   for (int round = 0; round < 3; ++round) {
-    ASSERT_TRUE(graduation.Widen(&newest));
+    ASSERT_TRUE(kernel.Widen(&newest));
     for (std::size_t i = 0; i < before.size(); ++i) {
       // The distance's derivative by finite differences.
       Vector6d J;
@@ -113,33 +113,33 @@ TEST(Graduation, WidensEachKernelByHowFarThePredictionMayBeOffThere) {
       const double f = 9.0 * std::pow(0.25, round) * J.dot(P * J) / (kKernel_m * kKernel_m);
       EXPECT_NEAR(newest.points[i].weight, before[i].weight / (1.0 + f), 1e-4 * before[i].weight);
     }
-    graduation.Restore(&newest);
+    kernel.Restore(&newest);
     for (std::size_t i = 0; i < before.size(); ++i) {
       EXPECT_EQ(newest.points[i].weight, before[i].weight);
     }
   }
 }
 
-TEST(Graduation, LeavesAGoodPredictionAlone) {
+TEST(GraduatedKernel, LeavesAGoodPredictionAlone) {
   const MapPyramid map = BoxMap();
   testing::Random random(4);
   Window window = OneSegment(SE3(), SE3(), 0.01, 0.001, &random);
-  Graduation graduation(window);
+  GraduatedKernel kernel(window);
   ThreadPool threads(1);
   AssociateWindow(map, {}, &threads, &window);
-  EXPECT_FALSE(graduation.Widen(&window.segments[0]));
+  EXPECT_FALSE(kernel.Widen(&window.segments[0]));
 }
 
-TEST(Graduation, EndsAfterAFewRounds) {
+TEST(GraduatedKernel, EndsAfterAFewRounds) {
   const MapPyramid map = BoxMap();
   testing::Random random(5);
   Window window = OneSegment(SE3(), SE3(), 2.0, 0.5, &random);
-  Graduation graduation(window);
+  GraduatedKernel kernel(window);
   ThreadPool threads(1);
   AssociateWindow(map, {}, &threads, &window);
   int rounds = 0;
-  for (; rounds < 20 && graduation.Widen(&window.segments[0]); ++rounds) {
-    graduation.Restore(&window.segments[0]);
+  for (; rounds < 20 && kernel.Widen(&window.segments[0]); ++rounds) {
+    kernel.Restore(&window.segments[0]);
   }
   EXPECT_GT(rounds, 3);
   EXPECT_LT(rounds, 10);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/health/starvation.h"
+#include "core/odometry/health/support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ double CountOnPlanes(const Window& window, const Segment& segment, std::size_t s
 
 }  // namespace
 
-bool IsStarved(const Window& window, const Segment& segment) {
+bool IsUnsupported(const Window& window, const Segment& segment) {
   // What most points say, some of them say, too.
   const std::size_t stride = 1 + segment.points.size() / kAsked;
   const double on_plane = static_cast<double>(stride) * CountOnPlanes(window, segment, stride);
@@ -49,9 +49,9 @@ double ShareOnMap(const Window& window, const Segment& segment) {
   return CountOnPlanes(window, segment, 1) / static_cast<double>(all);
 }
 
-bool StarvationWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {
-  if (!was_fed_) return false;
-  const double unseen_s = 1e-9 * static_cast<double>(t_ns - fed_until_ns_);
+bool SupportWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {
+  if (!was_supported_) return false;
+  const double unseen_s = 1e-9 * static_cast<double>(t_ns - supported_until_ns_);
   return 3.0 * UnseenSigma(density[0], unseen_s) > kBridged_m ||
          3.0 * UnseenSigma(density[3], unseen_s) > kBridged_rad;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "factors/registration_point.h"
-#include "factors/segment_registration.h"
+#include "factors/segment_linearizer.h"
 
 namespace trajlo {
 
@@ -38,15 +38,15 @@ class OuterSum {
 ///
 /// with w_i the weight of the point in H (kernel included), x_i its place, j_i = G_i n_i its
 /// Jacobian and v_i the variance of its normal. H - F is what the true planes would have given.
-struct FeignedInformation {
+struct SpuriousInformation {
   /// F for a rigid perturbation [rho; theta] of the body frame at the end of the segment.
   Matrix6d mean = Matrix6d::Zero();
   /// Sums of w_i v_i and of (w_i v_i)². With N = sum² / sum_of_squares normals that are
-  /// independent, what is really feigned differs from its mean by the share sqrt(2 / N).
+  /// independent, what is really spurious differs from its mean by the share sqrt(2 / N).
   double sum = 0.0;
   double sum_of_squares = 0.0;
 
-  /// What points tell where v_i is infinite, sum w_i j_i j_iᵀ: all of it may be feigned. One scan
+  /// What points tell where v_i is infinite, sum w_i j_i j_iᵀ: all of it may be spurious. One scan
   /// line round a corner makes a perfect plane, which is no surface.
   Matrix6d no_surface = Matrix6d::Zero();
   /// What the others tell, dealt into groups by where they lie: points of one place, which share
@@ -56,7 +56,8 @@ struct FeignedInformation {
 };
 
 /// Of the points of one segment.
-FeignedInformation FeignedBy(const std::vector<RegistrationPoint>& points, const SE3& T_begin,
-                             const SE3& T_end, const RegistrationNoise& noise);
+SpuriousInformation SpuriousInformationOf(const std::vector<RegistrationPoint>& points,
+                                          const SE3& T_begin, const SE3& T_end,
+                                          const RegistrationNoise& noise);
 
 }  // namespace trajlo
