@@ -9,6 +9,8 @@ constexpr double kSpan_s = 3.0;
 /// ... more than this share did not converge or were reverted: planes that never settle are not
 /// those of the scene.
 constexpr double kMaxUnsettledShare = 0.8;
+/// A window that was given fewer rounds than this, by the options, says nothing.
+constexpr int kRoundsToSettle = 3;
 /// Where predictions are off by this much (root mean square over the span), half as many unsettled
 /// windows are enough ...
 constexpr double kFailedPrediction_m = 1.4;
@@ -37,7 +39,9 @@ bool LossWatch::TooFewInliers(const WindowStatistics& window) {
 }
 
 bool LossWatch::TooFewSettled(const WindowStatistics& window) {
-  const bool is_settled = (window.flags & (kFlagNotConverged | kFlagReverted)) == 0;
+  const unsigned unsettled =
+      window.rounds < kRoundsToSettle ? kFlagReverted : kFlagNotConverged | kFlagReverted;
+  const bool is_settled = (window.flags & unsettled) == 0;
   const double correction_m = window.correction_m + kLeverArm_m * window.correction_rad;
   recent_.push_back({window.end_ns, is_settled, correction_m * correction_m});
   unsettled_ += is_settled ? 0 : 1;

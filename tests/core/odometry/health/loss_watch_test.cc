@@ -14,6 +14,7 @@ WindowStatistics Window(int index, int inliers, unsigned flags = 0) {
   window.points = 100;
   window.inliers = inliers;
   window.flags = flags;
+  window.rounds = 8;
   return window;
 }
 
@@ -67,6 +68,15 @@ TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
   LossWatch watch({});
   for (int i = 0; i < 300; ++i) {
     EXPECT_FALSE(watch.Update(Window(i, 95, i % 2 == 0 ? 0u : kFlagNotConverged)));
+  }
+}
+
+TEST(LossWatch, DoesNotAskAWindowOfTwoRoundsToSettle) {
+  LossWatch watch({});
+  for (int i = 0; i < 300; ++i) {
+    WindowStatistics window = Window(i, 95, kFlagNotConverged);
+    window.rounds = 2;
+    EXPECT_FALSE(watch.Update(window)) << i;
   }
 }
 
