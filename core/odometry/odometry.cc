@@ -21,9 +21,9 @@ namespace {
 /// extend it: half if they agree and merely leave a direction open, as in a tunnel.
 constexpr double kMayEnterMap = 0.75;
 constexpr double kMayEnterMapIfOpen = 0.5;
-/// Where fewer of the newest points than this share have a plane, the window keeps so few segments.
-constexpr double kSeesMap = 0.5;
+/// The window keeps so few segments where fewer of the newest points than this share have a plane.
 constexpr int kShortWindow = 2;
+constexpr double kSeesMap = 0.5;
 
 }  // namespace
 

@@ -13,8 +13,8 @@ namespace trajlo {
 
 /// What was known when the search began.
 struct LastSeen {
-  std::int64_t supported_until_ns =
-      0;                  ///< When the points ended; from there on the motion is carried on.
+  /// When the points ended; from there on the motion is carried on.
+  std::int64_t supported_until_ns = 0;
   std::int64_t t_ns = 0;  ///< Of the pose.
   SE3 T_world_body;
   Vector6d velocity = Vector6d::Zero();  ///< [rho; theta] per second, body frame.
