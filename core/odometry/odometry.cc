@@ -162,7 +162,8 @@ void Odometry::Step(SegmentCloud cloud) {
   statistics.flags |= lasting_flags_;
   window_.segments.back().flags = statistics.flags;
   Describe(window_, &statistics);
-  while (window_.size() > SegmentsToKeep()) Leave(&statistics);
+  const int to_keep = SegmentsToKeep();
+  while (window_.size() > to_keep) Leave(&statistics);
   Report(&statistics);
 }
 
