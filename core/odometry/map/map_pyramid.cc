@@ -127,9 +127,7 @@ void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane*
     plane.normal_variance_rad2 = query.is_grazed ? std::numeric_limits<double>::infinity()
                                                  : query.plane.normal_variance_rad2;
     const double relative = query.plane.thickness_m / PlaneFitOptions::kHalfWeightThickness_m;
-    const double scale_squared = plane.scale * plane.scale;
-    const double curvature = query.is_wide ? 1.0 : scale_squared * scale_squared;
-    plane.weight = 1.0 / ((1.0 + relative * relative) * curvature);
+    plane.weight = 1.0 / ((1.0 + relative * relative) * (query.is_wide ? 1.0 : plane.scale));
   }
 }
 

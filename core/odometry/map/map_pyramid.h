@@ -71,9 +71,8 @@ class MapPyramid {
   /// Another number after each insertion.
   std::int64_t version() const { return version_; }
   /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
-  /// taken only where there is no other. A surface that is not flat leaves its plane by the square
-  /// of the plane's size, so that the variance of a distance grows with the fourth power: by that
-  /// of its scale, the weight of a plane that is not wide and thin is divided.
+  /// taken only where there is no other. A plane that is not wide and thin has its weight divided
+  /// by the ratio of its level.
   void FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const;
   Plane FindPlane(const PlaneQuery& query) const;
 

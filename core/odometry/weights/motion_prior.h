@@ -19,8 +19,8 @@ struct MotionPriorOptions {
   double translation_m2_s3 = 0.5;
   double rotation_rad2_s3 = 0.5;
   bool self_tuning = true;
-  double min_translation_m2_s3 = 0.5;
-  double min_rotation_rad2_s3 = 0.5;
+  double min_translation_m2_s3 = 0.2;
+  double min_rotation_rad2_s3 = 0.2;
 
   template <typename Describer>
   void Describe(Describer& d) {
