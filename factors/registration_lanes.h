@@ -9,6 +9,7 @@
 
 #include "factors/registration_point.h"
 #include "factors/robust_kernel.h"
+#include "factors/segment_linearizer.h"
 #include "manifolds/lanes.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -44,7 +45,7 @@ inline GatheredPoints<double>::GatheredPoints(const RegistrationPoint* points)
       weight(points->weight) {}
 
 /// A point begins with p and alpha, four numbers; n and the offset follow.
-static_assert(sizeof(RegistrationPoint) == 10 * sizeof(double));
+static_assert(sizeof(RegistrationPoint) == 11 * sizeof(double));
 inline Lane4 LoadFour(const RegistrationPoint& point, int first) {
   Lane4 four;
   std::memcpy(&four, reinterpret_cast<const char*>(&point) + first * sizeof(double), sizeof(four));

@@ -127,7 +127,8 @@ void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane*
     plane.normal_variance_rad2 = query.is_grazed ? std::numeric_limits<double>::infinity()
                                                  : query.plane.normal_variance_rad2;
     const double relative = query.plane.thickness_m / PlaneFitOptions::kHalfWeightThickness_m;
-    plane.weight = 1.0 / ((1.0 + relative * relative) * (query.is_wide ? 1.0 : plane.scale));
+    plane.coarseness = query.is_wide ? 1.0 : plane.scale;
+    plane.weight = 1.0 / ((1.0 + relative * relative) * std::pow(plane.coarseness, 4));
   }
 }
 

@@ -37,6 +37,9 @@ struct Plane {
   double weight = 0.0;
   /// Voxels of the level it comes from, in those of the finest.
   double scale = 1.0;
+  /// The same, but 1 for a wide and thin plane. The weight is divided by its fourth power: a
+  /// surface that is not flat leaves its plane by the square of the plane's size.
+  double coarseness = 1.0;
   /// See FittedPlane; infinite where the ray merely grazes the plane, which may be no surface.
   double normal_variance_rad2 = 0.0;
 
@@ -71,8 +74,7 @@ class MapPyramid {
   /// Another number after each insertion.
   std::int64_t version() const { return version_; }
   /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
-  /// taken only where there is no other. A plane that is not wide and thin has its weight divided
-  /// by the ratio of its level.
+  /// taken only where there is no other. The weight of one falls with its coarseness.
   void FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const;
   Plane FindPlane(const PlaneQuery& query) const;
 

@@ -64,7 +64,7 @@ void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
     z[i] = innovation.correction[i] / std::sqrt(innovation.expected_variance[i]);
   }
   sum_ = decay * sum_ + z;
-  const double floor[2] = {options_.min_translation_m2_s3, options_.min_rotation_rad2_s3};
+  const double floor[2] = {options_.translation_m2_s3, options_.rotation_rad2_s3};
   const double share = 1.0 - std::exp(-duration_s / kLearning_s);
   for (int part = 0; part < 2; ++part) {
     const double surprise = MeanSquare(1.0 - decay * decay, sum_, innovation, 3 * part);
@@ -73,7 +73,8 @@ void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
     if (!options_.self_tuning) continue;
     const double score = std::min(surprise - 1.0, kLargestScore);
     const double density = density_[3 * part] * std::exp(score * duration_s / kLearning_s);
-    density_.segment<3>(3 * part).setConstant(std::clamp(density, floor[part], kLargestDensity));
+    density_.segment<3>(3 * part).setConstant(
+        std::max(floor[part], std::min(density, kLargestDensity)));
   }
 }
 

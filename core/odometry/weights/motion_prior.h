@@ -19,8 +19,6 @@ struct MotionPriorOptions {
   double translation_m2_s3 = 0.5;
   double rotation_rad2_s3 = 0.5;
   bool self_tuning = true;
-  double min_translation_m2_s3 = 0.2;
-  double min_rotation_rad2_s3 = 0.2;
 
   template <typename Describer>
   void Describe(Describer& d) {
@@ -33,12 +31,10 @@ struct MotionPriorOptions {
       "Lets the densities of the prior (expert.motion_prior) follow the motion; false keeps them.");
     d(OptionFor::kExperts, "translation_m2_s3", translation_m2_s3, Range<double>{1e-9, 1e9},
       "Spectral density of the acceleration: how freely the body moves. The translations of "
-      "neighbouring segments of length dt differ by a variance of 2/3 of it times dt^3.");
+      "neighbouring segments of length dt differ by a variance of 2/3 of it times dt^3. "
+      "Self-tuning "
+      "begins here, and never goes below.");
     d(OptionFor::kExperts, "rotation_rad2_s3", rotation_rad2_s3, Range<double>{1e-9, 1e9},
-      "The same for rotation.");
-    d(OptionFor::kExperts, "min_translation_m2_s3", min_translation_m2_s3, Range<double>{1e-9, 1e9},
-      "Self-tuning never goes below this.");
-    d(OptionFor::kExperts, "min_rotation_rad2_s3", min_rotation_rad2_s3, Range<double>{1e-9, 1e9},
       "The same for rotation.");
   }
 };

@@ -73,7 +73,8 @@ int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
     const Plane& plane = planes_[i];
     if (!plane.exists()) continue;
     associated->push_back({points[i].p_body_m.cast<double>(), points[i].alpha, plane.normal_world,
-                           plane.offset_m, plane.weight, plane.normal_variance_rad2});
+                           plane.offset_m, plane.weight, plane.normal_variance_rad2,
+                           plane.coarseness});
   }
   return searched;
 }

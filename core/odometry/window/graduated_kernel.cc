@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window/graduated_kernel.h"
 
+#include <cmath>
+
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/window_equations.h"
 
@@ -49,7 +51,7 @@ bool GraduatedKernel::Widen(Segment* newest) {
   weights_.clear();
   for (RegistrationPoint& point : points) {
     weights_.push_back(point.weight);
-    point.weight /= 1.0 + f(point);
+    point.weight *= std::pow(point.coarseness, 3) / (1.0 + f(point));
   }
   reach_ *= kShrink;
   newest->linearization.reset();

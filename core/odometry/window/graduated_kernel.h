@@ -15,11 +15,13 @@ namespace trajlo {
 /// the kernel of each point starts as wide as the prediction may be off there, which its covariance
 /// P says, and narrows from round to round:
 ///
-///   f = (3² / 4^round) J P Jᵀ / kernel²,   weight ← weight / (1 + f),
+///   f = (3² / 4^round) J P Jᵀ / kernel²,   weight ← weight coarseness³ / (1 + f),
 ///
 /// with J the derivative of the point's distance by the newest pose: a point is doubted in
 /// proportion to how far it may be off, and the kernel c, which is in units of sigma /
-/// sqrt(weight), becomes c sqrt(1 + f). Where the prediction is good, f is small for most points
+/// sqrt(weight), becomes c sqrt(1 + f). Far from its place a point takes a wrong plane, and the
+/// coarser ones are less wrong: their weight, 1 / coarseness⁴ where the place is known, becomes
+/// 1 / coarseness. Where the prediction is good, f is small for most points
 /// and nothing happens. Idea: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al.,
 /// Graduated Non-Convexity for Robust Spatial Perception, RA-L 2020.
 class GraduatedKernel {

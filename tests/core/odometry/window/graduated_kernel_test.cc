@@ -111,7 +111,8 @@ TEST(GraduatedKernel, WidensEachKernelByHowFarThePredictionMayBeOffThere) {
         J[c] = before[i].normal_world.dot(moved) / 1e-6;
       }
       const double f = 9.0 * std::pow(0.25, round) * J.dot(P * J) / (kKernel_m * kKernel_m);
-      EXPECT_NEAR(newest.points[i].weight, before[i].weight / (1.0 + f), 1e-4 * before[i].weight);
+      const double widened = before[i].weight * std::pow(before[i].coarseness, 3) / (1.0 + f);
+      EXPECT_NEAR(newest.points[i].weight, widened, 1e-4 * widened);
     }
     kernel.Restore(&newest);
     for (std::size_t i = 0; i < before.size(); ++i) {
