@@ -21,6 +21,8 @@ namespace {
 /// extend it: half if they agree and merely leave a direction open, as in a tunnel.
 constexpr double kMayEnterMap = 0.75;
 constexpr double kMayEnterMapIfOpen = 0.5;
+/// Fewer points make no map: the recording begins again with what comes next.
+constexpr std::size_t kFewestToBegin = 20;
 /// The window keeps so few segments where fewer of the newest points than this share have a plane.
 constexpr int kShortWindow = 2;
 constexpr double kSeesMap = 0.5;
@@ -82,12 +84,13 @@ void Odometry::ProcessSegments() {
 
 void Odometry::Take(SegmentCloud cloud) {
   if (first_scan_) FindFirstVelocity(cloud);
-  if (cloud.is_gap && !support_.was_supported()) {
+  if (cloud.is_gap && !support_.was_supported() && !search_) {
     SettleWindow(cloud.end_ns);
     window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
     return;
   }
-  if (cloud.is_gap && !search_) BeginSearch();
+  const bool has_map = support_.was_supported() || map_.size() >= kFewestToBegin;
+  if ((cloud.is_gap || !has_map) && !search_) BeginSearch();
   if (!search_) {
     Step(std::move(cloud));
     return;

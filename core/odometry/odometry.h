@@ -73,6 +73,7 @@ class Odometry {
   void Search(bool is_last);
   void Resume(const ReturnSweep& sweep);
   void GetLost(const ReturnSweep& sweep);
+  void BeginAgain(const ReturnSweep& sweep);
   bool IsBlind() const;
   void TakeBackAndSearch(const std::vector<SE3>& predicted);
   void NoteSupport();

@@ -56,9 +56,18 @@ void Odometry::Search(bool is_last) {
   const double unseen_s = 1e-9 * static_cast<double>(sweep.cloud.begin_ns - last.t_ns);
   if (sweep.T_world_begin && IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s)) {
     Resume(sweep);
+  } else if (!support_.was_supported()) {
+    BeginAgain(sweep);
   } else if (is_last || search_->IsHopeless()) {
     GetLost(sweep);
   }
+}
+
+/// There was nothing yet that could be found.
+void Odometry::BeginAgain(const ReturnSweep& sweep) {
+  SettleWindow(sweep.cloud.begin_ns);
+  BeginMap(sweep.cloud, window_.T_world_begin, sweep.tau, kFlagGap);
+  search_.reset();
 }
 
 /// The place is found: a new window begins there, and takes what has come since.

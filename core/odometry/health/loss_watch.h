@@ -11,7 +11,7 @@
 namespace trajlo {
 
 struct LostOptions {
-  double min_inlier_share = 0.05;
+  double min_inlier_share = 0.3;
   double max_duration_s = 1.0;
   /// After a pause, or when a covered LiDAR sees again, the place is sought in the map. When so
   /// much data has come and it is not found, the estimator is lost.
@@ -21,8 +21,9 @@ struct LostOptions {
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "min_inlier_share", min_inlier_share, Range<double>{0.0, 1.0},
-      "The estimator is lost when fewer than this share of the points find a plane for longer than "
-      "max_duration_s.");
+      "The estimator is lost when fewer than this share of the points lie on planes for longer "
+      "than "
+      "max_duration_s: the map has grown with what it saw, and still does not explain it.");
     d(OptionFor::kExperts, "max_duration_s", max_duration_s, Range<double>{0.0, 1e6},
       "See min_inlier_share.");
     d(OptionFor::kExperts, "degenerate_sigma_m", degenerate_sigma_m, Range<double>{1e-4, 1e3},
