@@ -20,7 +20,7 @@ struct SegmenterOptions {
   double max_range_m = 150.0;
   double map_voxel_m = 0.2;
   double registration_voxel_m = 0.4;
-  int max_registration_points = 1500;
+  int max_registration_points = 2000;
   double max_gap_s = 1.0;
   double max_lag_s = 0.5;
   double vertical_correction_deg = 0.0;
