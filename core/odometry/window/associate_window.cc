@@ -1,22 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window/associate_window.h"
 
+#include <cstddef>
+#include <vector>
+
 namespace trajlo {
 
 int AssociateWindow(const MapPyramid& map, const StepTolerance& tolerance, ThreadPool* threads,
                     Window* window) {
-  int searched = 0;
+  struct Chunk {
+    SegmentAssociation* association;
+    std::size_t index;
+  };
+  std::vector<Chunk> chunks;
   for (int k = 0; k < window->size(); ++k) {
-    const SE3 T_begin = window->Pose(k);
     Segment& segment = window->segments[static_cast<std::size_t>(k)];
     const SegmentCloud& cloud = segment.cloud;
-    const int asked = segment.association.Associate(
-        cloud.registration_points, cloud.lidar_origins_body_m, T_begin, segment.T_world_end, map,
-        tolerance, threads, &segment.points);
-    if (asked > 0) segment.linearization.reset();
-    searched += asked;
+    const std::size_t count =
+        segment.association.Begin(cloud.registration_points, cloud.lidar_origins_body_m,
+                                  window->Pose(k), segment.T_world_end, map, tolerance);
+    for (std::size_t i = 0; i < count; ++i) chunks.push_back({&segment.association, i});
   }
-  return searched;
+  // One loop for all segments: that wakes the other threads once.
+  threads->ParallelFor(chunks.size(),
+                       [&](std::size_t i) { chunks[i].association->Look(chunks[i].index); });
+  std::vector<int> searched(window->segments.size());
+  threads->ParallelFor(searched.size(), [&](std::size_t k) {
+    Segment& segment = window->segments[k];
+    searched[k] = segment.association.Finish(&segment.points);
+    if (searched[k] > 0) segment.linearization.reset();
+  });
+  int total = 0;
+  for (const int count : searched) total += count;
+  return total;
 }
 
 }  // namespace trajlo

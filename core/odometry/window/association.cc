@@ -15,36 +15,10 @@ constexpr std::size_t kBatch = MapPyramid::kMaxBatch;
 
 }  // namespace
 
-/// Looks up planes for those of at most kBatch points that need one; returns how many they were.
-int SegmentAssociation::Renew(const SegmentPoint* points, std::size_t count,
-                              const SegmentMotion& motion, const std::vector<LidarPath>& lidars,
-                              const MapPyramid& map, bool has_grown, VoxelKey* cells,
-                              Plane* found) {
-  std::array<Eigen::Vector3d, kBatch> places;
-  PointsToWorld(motion, points, count, places.data());
-  std::array<PlaneQuery, kBatch> queries;
-  std::array<Plane, kBatch> planes;
-  std::array<std::size_t, kBatch> asking;
-  std::size_t asked = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (map.IsAround(places[i], cells[i]) && (!has_grown || found[i].exists())) continue;
-    cells[i] = map.CellOf(places[i]);
-    const LidarPath& lidar = lidars[points[i].lidar];
-    const Eigen::Vector3d origin = lidar.begin_world + points[i].alpha * lidar.way_world;
-    queries[asked] = {places[i], (places[i] - origin).cast<float>()};
-    asking[asked++] = i;
-  }
-  if (asked == 0) return 0;
-  map.FindPlanes(queries.data(), asked, planes.data());
-  for (std::size_t i = 0; i < asked; ++i) found[asking[i]] = planes[i];
-  return static_cast<int>(asked);
-}
-
-int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
-                                  const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
-                                  const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
-                                  const StepTolerance& tolerance, ThreadPool* threads,
-                                  std::vector<RegistrationPoint>* associated) {
+std::size_t SegmentAssociation::Begin(const std::vector<SegmentPoint>& points,
+                                      const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
+                                      const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
+                                      const StepTolerance& tolerance) {
   const bool is_first = cells_.empty();
   if (!is_first && AreNear(T_begin, T_end, T_begin_, T_end_, tolerance)) return 0;
   T_begin_ = T_begin;
@@ -52,22 +26,50 @@ int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
   const bool has_grown = std::exchange(map_version_, map.version()) != map.version();
   cells_.resize(points.size(), VoxelKey::Constant(std::numeric_limits<int>::min()));
   planes_.resize(points.size());
-  const SegmentMotion motion(T_begin, T_end);
-  std::vector<LidarPath> lidars;
-  for (const Eigen::Vector3d& origin : lidar_origins_body_m) {
-    lidars.push_back({T_begin * origin, T_end * origin - T_begin * origin});
-  }
   const std::size_t chunks = (points.size() + kBatch - 1) / kBatch;
-  chunk_searched_.resize(chunks);
-  threads->ParallelFor(chunks, [&](std::size_t chunk) {
-    const std::size_t first = chunk * kBatch;
-    chunk_searched_[chunk] = Renew(&points[first], std::min(kBatch, points.size() - first), motion,
-                                   lidars, map, has_grown, &cells_[first], &planes_[first]);
-  });
-  int searched = 0;
-  for (const int count : chunk_searched_) searched += count;
-  if (searched == 0) return 0;
+  round_.emplace(
+      Round{&points, &map, has_grown, SegmentMotion(T_begin, T_end), {}, std::vector<int>(chunks)});
+  for (const Eigen::Vector3d& origin : lidar_origins_body_m) {
+    round_->lidars.push_back({T_begin * origin, T_end * origin - T_begin * origin});
+  }
+  return chunks;
+}
 
+void SegmentAssociation::Look(std::size_t chunk) {
+  const MapPyramid& map = *round_->map;
+  const std::size_t first = chunk * kBatch;
+  const std::size_t count = std::min(kBatch, round_->points->size() - first);
+  const SegmentPoint* points = &(*round_->points)[first];
+  VoxelKey* cells = &cells_[first];
+  Plane* found = &planes_[first];
+  std::array<Eigen::Vector3d, kBatch> places;
+  PointsToWorld(round_->motion, points, count, places.data());
+  std::array<PlaneQuery, kBatch> queries;
+  std::array<Plane, kBatch> planes;
+  std::array<std::size_t, kBatch> asking;
+  std::size_t asked = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool has_answer = !round_->has_grown || found[i].exists();
+    if (has_answer && map.IsAround(places[i], cells[i])) continue;
+    cells[i] = map.CellOf(places[i]);
+    const LidarPath& lidar = round_->lidars[points[i].lidar];
+    const Eigen::Vector3d origin = lidar.begin_world + points[i].alpha * lidar.way_world;
+    queries[asked] = {places[i], (places[i] - origin).cast<float>()};
+    asking[asked++] = i;
+  }
+  round_->searched[chunk] = static_cast<int>(asked);
+  if (asked == 0) return;
+  map.FindPlanes(queries.data(), asked, planes.data());
+  for (std::size_t i = 0; i < asked; ++i) found[asking[i]] = planes[i];
+}
+
+int SegmentAssociation::Finish(std::vector<RegistrationPoint>* associated) {
+  if (!round_) return 0;
+  const std::vector<SegmentPoint>& points = *round_->points;
+  int searched = 0;
+  for (const int count : round_->searched) searched += count;
+  round_.reset();
+  if (searched == 0) return 0;
   associated->clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Plane& plane = planes_[i];
@@ -77,6 +79,16 @@ int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
                            plane.coarseness});
   }
   return searched;
+}
+
+int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
+                                  const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
+                                  const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
+                                  const StepTolerance& tolerance, ThreadPool* threads,
+                                  std::vector<RegistrationPoint>* associated) {
+  const std::size_t chunks = Begin(points, lidar_origins_body_m, T_begin, T_end, map, tolerance);
+  threads->ParallelFor(chunks, [&](std::size_t i) { Look(i); });
+  return Finish(associated);
 }
 
 }  // namespace trajlo

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/odometry/map/map_pyramid.h"
@@ -17,11 +19,20 @@ namespace trajlo {
 /// a point without one asks again when the map has grown.
 class SegmentAssociation {
  public:
-  /// Takes every point to the world at its own time on T_begin..T_end, and looks up the planes of
-  /// those that need one. `points` are the same at every call; `lidar_origins_body_m` says where
-  /// each point's LiDAR is. `associated` receives the points that have a plane, in the order of
-  /// `points`; it stays as it is where nothing is looked up, as when the poses are within
-  /// `tolerance` of where they were. Returns the number of look-ups.
+  /// Takes every point to the world at its own time on T_begin..T_end, where Look() will look up
+  /// the planes of those that need one. `points` are the same at every call; `lidar_origins_body_m`
+  /// says where each point's LiDAR is. Both, and `map`, must live until Finish(). Returns in how
+  /// many chunks: none where the poses are within `tolerance` of where they were.
+  std::size_t Begin(const std::vector<SegmentPoint>& points,
+                    const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const SE3& T_begin,
+                    const SE3& T_end, const MapPyramid& map, const StepTolerance& tolerance);
+  /// Every chunk once, in any order; several threads may.
+  void Look(std::size_t chunk);
+  /// `associated` receives the points that have a plane, in the order of the points; it stays as it
+  /// is where nothing was looked up. Returns the number of look-ups.
+  int Finish(std::vector<RegistrationPoint>* associated);
+
+  /// The three in a row.
   int Associate(const std::vector<SegmentPoint>& points,
                 const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const SE3& T_begin,
                 const SE3& T_end, const MapPyramid& map, const StepTolerance& tolerance,
@@ -32,19 +43,23 @@ class SegmentAssociation {
   struct LidarPath {
     Eigen::Vector3d begin_world, way_world;
   };
-
-  /// `has_grown`: the map, since the last call.
-  static int Renew(const SegmentPoint* points, std::size_t count, const SegmentMotion& motion,
-                   const std::vector<LidarPath>& lidars, const MapPyramid& map, bool has_grown,
-                   VoxelKey* cells, Plane* found);
+  /// From Begin() to Finish().
+  struct Round {
+    const std::vector<SegmentPoint>* points;
+    const MapPyramid* map;
+    bool has_grown;  ///< The map, since the last round.
+    SegmentMotion motion;
+    std::vector<LidarPath> lidars;
+    std::vector<int> searched;  ///< In each chunk.
+  };
 
   /// Of each point: the cell in which it asked, and the answer.
   std::vector<VoxelKey> cells_;
   std::vector<Plane> planes_;
-  /// At the last call.
+  /// In the last round.
   SE3 T_begin_, T_end_;
   std::int64_t map_version_ = -1;
-  std::vector<int> chunk_searched_;
+  std::optional<Round> round_;
 };
 
 }  // namespace trajlo
