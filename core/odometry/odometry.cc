@@ -9,10 +9,9 @@
 #include "core/odometry/stopwatch.h"
 #include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
+#include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/graduated_kernel.h"
-#include "core/odometry/window/points_to_world.h"
 #include "core/odometry/window/push_segment.h"
-#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -32,57 +31,27 @@ constexpr double kSeesMap = 0.5;
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
     : options_(options),
       threads_(options.threads),
-      sequencer_(options.segmenter.max_lag_s, [this](const LidarScan& scan) { CutSegments(scan); }),
-      segmenter_(options.segmenter),
+      segments_(options.segmenter, &threads_,
+                [this](SegmentCloud segment) { Take(std::move(segment)); }),
       map_(options.map),
       motion_prior_(options.motion_prior),
       solver_(make_solver(options.solver, &threads_)),
       loss_watch_(options.lost) {}
 
-void Odometry::AddScan(const LidarScan& scan) { sequencer_.Add(scan); }
-
-/// A scan whose times go on from those before.
-void Odometry::CutSegments(const LidarScan& scan) {
-  if (on_scan_) on_scan_(scan);
-  Stopwatch watch;
-  const std::int64_t kept = segmenter_.counts().Kept();
-  segmenter_.AddScan(scan);
-  if (segmenter_.counts().Kept() > kept) sequencer_.NoteUse();
-  segment_ms_ += watch.Milliseconds();
-  ProcessSegments();
-}
+void Odometry::AddScan(const LidarScan& scan) { segments_.Add(scan); }
 
 void Odometry::Finish() {
-  sequencer_.Finish();
-  segmenter_.Finish();
-  ProcessSegments();
+  segments_.Finish();
   if (!started_) return;
   if (search_ && search_->HasPoints()) Search(true);
   SettleWindow(std::numeric_limits<std::int64_t>::max());
 }
 
-PointCounts Odometry::point_counts() const {
-  PointCounts counts = segmenter_.counts();
-  counts.wrong_time = sequencer_.report().points;
-  counts.received += counts.wrong_time;
-  return counts;
-}
-
-void Odometry::ProcessSegments() {
-  while (true) {
-    Stopwatch watch;
-    std::optional<SegmentCloud> cloud = segmenter_.Next();
-    segment_ms_ += watch.Milliseconds();
-    if (!cloud) return;
-    if (started_) {
-      Take(std::move(*cloud));
-    } else {
-      Start(*cloud);
-    }
-  }
-}
-
 void Odometry::Take(SegmentCloud cloud) {
+  if (!started_) {
+    Start(cloud);
+    return;
+  }
   if (first_scan_) FindFirstVelocity(cloud);
   if (cloud.is_gap && !support_.was_supported() && !search_) {
     SettleWindow(cloud.end_ns);
@@ -117,7 +86,7 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
   const double duration_s = 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns);
   if (duration_s > 0.0) Settle({cloud.begin_ns, T_begin, flags}, Matrix6d::Zero());
   const SE3 T_end = T_begin * se3::Exp(tau);
-  AddToMap(cloud, T_begin, T_end);
+  EnterMap(cloud, T_begin, T_end, &threads_, &map_);
   window_ = MakeWindow(cloud.end_ns, T_end);
   window_.begin_flags = flags;
   if (duration_s > 0.0) {
@@ -223,14 +192,16 @@ void Odometry::Leave(WindowStatistics* statistics) {
   const bool is_of_the_world = !support_.was_supported() || MayEnterMap(window_.segments.front());
   const Segment oldest = Marginalize(options_.marginalization, &window_);
   statistics->milliseconds_marginalize += watch.Milliseconds();
-  if (is_of_the_world) AddToMap(oldest.cloud, T_begin, oldest.T_world_end);
+  if (is_of_the_world) {
+    EnterMap(oldest.cloud, T_begin, oldest.T_world_end, &threads_, &map_);
+  }
   map_.RemoveFar(oldest.T_world_end.t);
   statistics->milliseconds_map += watch.Milliseconds();
 }
 
 void Odometry::Report(WindowStatistics* statistics) {
   statistics->index = windows_++;
-  statistics->milliseconds_segment = std::exchange(segment_ms_, 0.0);
+  statistics->milliseconds_segment = segments_.TakeMilliseconds();
   statistics->translation_density_m2_s3 = motion_prior_.density()[0];
   statistics->rotation_density_rad2_s3 = motion_prior_.density()[3];
   if (const auto lost_since_ns = loss_watch_.Update(*statistics)) {
@@ -260,18 +231,6 @@ void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
   trajectory_.Append(pose);
   attitude_.Add(pose.T_world_body.q);
   if (on_pose_) on_pose_(pose, motion_prior_.covariance_scale() * covariance);
-}
-
-void Odometry::AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end) {
-  const SegmentMotion motion(T_begin, T_end);
-  points_world_.resize(cloud.map_points.size());
-  constexpr std::size_t kChunk = 512;
-  threads_.ParallelFor((points_world_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    const std::size_t first = chunk * kChunk;
-    const std::size_t count = std::min(kChunk, points_world_.size() - first);
-    PointsToWorld(motion, &cloud.map_points[first], count, &points_world_[first]);
-  });
-  map_.Insert(points_world_);
 }
 
 }  // namespace trajlo

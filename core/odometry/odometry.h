@@ -10,7 +10,7 @@
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
 #include "core/odometry/parallel/parallel_for.h"
-#include "core/odometry/sensing/scan_sequencer.h"
+#include "core/odometry/sensing/segment_stream.h"
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/start/return_search.h"
 #include "core/odometry/trajectory/trajectory.h"
@@ -37,17 +37,22 @@ class Odometry {
   /// Processes what is left and settles all control poses.
   void Finish();
 
-  /// Called with every scan that is used, in order, its times as they are understood.
-  void OnScan(std::function<void(const LidarScan&)> callback) { on_scan_ = std::move(callback); }
+  /// Called with every scan that is used, in order, its times as they are understood. If there are
+  /// several threads it may run on another one, while the windows that the scan completes are
+  /// estimated and the other callbacks are called: it must share nothing with them, and ask this
+  /// object nothing.
+  void OnScan(std::function<void(const LidarScan&)> callback) {
+    segments_.OnScan(std::move(callback));
+  }
 
-  /// Called after every window.
+  /// Called after every window, on the thread that called AddScan or Finish.
   void OnWindow(std::function<void(const WindowStatistics&)> callback) {
     on_window_ = std::move(callback);
   }
-  /// Called for every control pose when it leaves the window, with the covariance of its right
-  /// perturbation [rho; theta] (m², m rad, rad²): that of the pose relative to the map in view, by
-  /// its last window, calibrated. What the map has drifted since the start is not in it. Computed
-  /// only if this is set.
+  /// Called likewise for every control pose when it leaves the window, with the covariance of its
+  /// right perturbation [rho; theta] (m², m rad, rad²): that of the pose relative to the map in
+  /// view, by its last window, calibrated. What the map has drifted since the start is not in it.
+  /// Computed only if this is set.
   void OnPose(std::function<void(const ControlPose&, const Matrix6d& covariance)> callback) {
     on_pose_ = std::move(callback);
   }
@@ -55,15 +60,13 @@ class Odometry {
   /// The control poses that have left the window (all of them after Finish).
   const Trajectory& trajectory() const { return trajectory_; }
   const MapPyramid& map() const { return map_; }
-  PointCounts point_counts() const;
+  PointCounts point_counts() const { return segments_.point_counts(); }
   /// What became of scans with odd stamps.
-  const TimeReport& time_report() const { return sequencer_.report(); }
+  const TimeReport& time_report() const { return segments_.time_report(); }
   /// When the estimator got lost, if it did (sticky).
   std::optional<std::int64_t> lost_at_ns() const { return lost_at_ns_; }
 
  private:
-  void CutSegments(const LidarScan& scan);
-  void ProcessSegments();
   void Start(const SegmentCloud& cloud);
   void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau, unsigned flags);
   void FindFirstVelocity(const SegmentCloud& cloud);
@@ -86,12 +89,10 @@ class Odometry {
   void SettleWindow(std::int64_t before_ns);
   void SettleFront();
   void Settle(const ControlPose& pose, const Matrix6d& covariance);
-  void AddToMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end);
 
   const OdometryOptions options_;
   ThreadPool threads_;
-  ScanSequencer sequencer_;
-  Segmenter segmenter_;
+  SegmentStream segments_;
   MapPyramid map_;
   MotionPrior motion_prior_;
   std::unique_ptr<WindowSolver> solver_;
@@ -101,7 +102,6 @@ class Odometry {
   std::optional<ReturnSearch> search_;  ///< While nobody knows where the body is.
   Window window_;
   Trajectory trajectory_;
-  std::function<void(const LidarScan&)> on_scan_;
   std::function<void(const WindowStatistics&)> on_window_;
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;
@@ -109,8 +109,6 @@ class Odometry {
   unsigned lasting_flags_ = 0;              ///< Of the window before, see LastingFlags.
   bool started_ = false;
   std::int64_t windows_ = 0;
-  double segment_ms_ = 0.0;
-  std::vector<Eigen::Vector3d> points_world_;
 };
 
 }  // namespace trajlo

@@ -4,6 +4,7 @@
 
 #include "core/odometry/health/belief.h"
 #include "core/odometry/odometry.h"
+#include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/push_segment.h"
 
 namespace trajlo {
@@ -85,7 +86,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
     const LastSeen& last = search_->last();
     window_.begin_velocity = 1e9 / static_cast<double>(sweep.cloud.begin_ns - last.t_ns) *
                              Minus(T_world_begin, last.T_world_body);
-    AddToMap(sweep.cloud, T_world_begin, T_world_begin);
+    EnterMap(sweep.cloud, T_world_begin, T_world_begin, &threads_, &map_);
     segments.clear();
   }
   support_.Supported(sweep.cloud.begin_ns);

@@ -61,6 +61,10 @@ class MapPyramid {
   explicit MapPyramid(const MapPyramidOptions& options);
 
   void Insert(const std::vector<Eigen::Vector3d>& points_world);
+  /// Removes from `points_world` what Insert() would not add anyway.
+  void DropRefused(std::vector<Eigen::Vector3d>* points_world) const {
+    levels_.front().points().DropRefused(points_world);
+  }
   void RemoveFar(const Eigen::Vector3d& center_world);
 
   /// Within a cell of the finest level, all levels have the same planes.

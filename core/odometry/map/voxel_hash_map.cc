@@ -130,6 +130,33 @@ void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
   }
 }
 
+void VoxelHashMap::DropRefused(std::vector<Eigen::Vector3d>* points_world) const {
+  constexpr std::size_t kBatch = 32;
+  std::array<VoxelKey, kBatch> keys;
+  std::array<VoxelIndex::Slot, kBatch> slots;
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < points_world->size(); first += kBatch) {
+    Eigen::Vector3d* points = &(*points_world)[first];
+    const std::size_t count = std::min(kBatch, points_world->size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      keys[i] = KeyOf(points[i]);
+      slots[i] = index_.Find(keys[i]);
+      if (slots[i] != VoxelIndex::kNoSlot) index_.Prefetch(slots[i]);
+    }
+    std::array<std::uint32_t, kBatch> blocks;
+    for (std::size_t i = 0; i < count; ++i) {
+      blocks[i] = VoxelIndex::kNoBlock;
+      if (slots[i] != VoxelIndex::kNoSlot) blocks[i] = index_[slots[i]].block;
+      if (blocks[i] != VoxelIndex::kNoBlock) __builtin_prefetch(&blocks_[blocks[i]]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3f p = (points[i] - CornerOf(keys[i])).cast<float>();
+      if (HasRoomFor(blocks[i], p)) (*points_world)[kept++] = points[i];
+    }
+  }
+  points_world->resize(kept);
+}
+
 void VoxelHashMap::DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed) {
   std::uint32_t points = 0;
   VoxelIndex::Entry& dropped = index_[index_.FindOrAdd(key)];

@@ -32,6 +32,9 @@ class VoxelHashMap {
   void Insert(const std::vector<Eigen::Vector3d>& points_world,
               std::vector<Eigen::Vector3d>* accepted = nullptr);
 
+  /// Removes from `points_world` what has no room: Insert() would not add it now, nor after others.
+  void DropRefused(std::vector<Eigen::Vector3d>* points_world) const;
+
   /// Drops what is farther than the radius from `center_world`. Appends to `changed` the numbers of
   /// all sites that lost points, once or more; the numbers of those that are none any more may be
   /// given anew.

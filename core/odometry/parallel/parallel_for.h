@@ -24,10 +24,16 @@ class ThreadPool {
       for (std::size_t i = 0; i < count; ++i) body(i);
       return;
     }
-    arena_.execute([&] {
+    Execute([&] {
       tbb::parallel_for(
           std::size_t{0}, count, [&](std::size_t i) { body(i); }, tbb::simple_partitioner());
     });
+  }
+
+  /// Calls body() where these threads, and no others, help with what it runs in parallel.
+  template <typename Body>
+  void Execute(const Body& body) {
+    arena_.execute(body);
   }
 
  private:

@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "core/odometry/sensing/scan_times.h"
 #include "tests/support/synthetic_world.h"
@@ -198,19 +200,51 @@ TEST(Odometry, CovariancesAreThoseOfRelativePosesAtRestAndInMotion) {
   EXPECT_LT(in_motion, 5.0);
 }
 
-TEST(Odometry, GivesTheSameBytesForOneAndTwoThreads) {
+TEST(Odometry, GivesTheSameBytesForAnyNumberOfThreads) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;
   OdometryOptions options = RoomOptions();
   options.threads = 1;
   const RunResult one = RunOn(world, options, 15);
-  options.threads = 2;
-  const RunResult two = RunOn(world, options, 15);
   const auto& a = one.odometry->trajectory().poses();
-  const auto& b = two.odometry->trajectory().poses();
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(std::memcmp(a[i].T_world_body.data(), b[i].T_world_body.data(), 56), 0);
+  for (const int threads : {2, 4}) {
+    options.threads = threads;
+    const RunResult several = RunOn(world, options, 15);
+    const auto& b = several.odometry->trajectory().poses();
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(std::memcmp(a[i].T_world_body.data(), b[i].T_world_body.data(), 56), 0);
+    }
+    EXPECT_EQ(several.odometry->map().size(), one.odometry->map().size());
+  }
+}
+
+TEST(Odometry, WhatCallbacksThrowReachesTheCallerAndFinishSettlesTheRest) {
+  const SyntheticWorld world;
+  OdometryOptions options = RoomOptions();
+  for (const int threads : {1, 2}) {
+    options.threads = threads;
+    Odometry odometry(options);
+    int windows = 0;
+    odometry.OnWindow([&](const WindowStatistics&) {
+      if (++windows == 20) throw std::runtime_error("bad window");
+    });
+    odometry.OnScan([&](const LidarScan& scan) {
+      if (scan.stamp_ns >= world.start_ns + 1'250'000'000) throw std::runtime_error("bad scan");
+    });
+    std::vector<std::string> failures;
+    for (int i = 0; i < 14; ++i) {
+      try {
+        odometry.AddScan(world.Sweep(i));
+      } catch (const std::runtime_error& error) {
+        failures.emplace_back(error.what());
+      }
+    }
+    EXPECT_EQ(failures, (std::vector<std::string>{"bad window", "bad scan"}));
+    const std::size_t settled = odometry.trajectory().poses().size();
+    odometry.Finish();
+    EXPECT_GT(odometry.trajectory().poses().size(), settled);
+    ExpectFinite(odometry.trajectory());
   }
 }
 

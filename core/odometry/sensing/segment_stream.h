@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/sensing/scan_sequencer.h"
+#include "core/odometry/sensing/segmenter.h"
+
+namespace trajlo {
+
+/// All that lies before the estimator: scans go in as they were recorded, segments come out in
+/// order.
+///
+/// While the estimator takes a segment, another thread of the pool thins the next one, if it is
+/// complete. What a segment holds does not depend on that, and no segment waits for a later scan.
+class SegmentStream {
+ public:
+  /// Called on the thread that called Add or Finish.
+  using HandOn = std::function<void(SegmentCloud)>;
+
+  /// `threads` must outlive it.
+  SegmentStream(const SegmenterOptions& options, ThreadPool* threads, HandOn hand_on);
+
+  void Add(const LidarScan& scan);
+  /// No further scans: hands on all that is left.
+  void Finish();
+
+  /// Called with every scan that is used, in order, before Add returns; perhaps by another thread,
+  /// while the segments of that scan are handed on.
+  void OnScan(std::function<void(const LidarScan&)> callback) { on_scan_ = std::move(callback); }
+
+  PointCounts point_counts() const;
+  const TimeReport& time_report() const { return sequencer_.report(); }
+  /// What the segments took that were handed on since the last call.
+  double TakeMilliseconds();
+
+ private:
+  void Cut(const LidarScan& scan);
+  void HandOnComplete();
+  void ThinNext();
+
+  ThreadPool* threads_;
+  ScanSequencer sequencer_;
+  Segmenter segmenter_;
+  HandOn hand_on_;
+  std::function<void(const LidarScan&)> on_scan_;
+  std::optional<SegmentCloud> next_;  ///< Thinned, not handed on yet.
+  double next_ms_ = 0.0;              ///< That took so long.
+  double handed_on_ms_ = 0.0;
+};
+
+}  // namespace trajlo

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/window/enter_map.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/odometry/window/points_to_world.h"
+
+namespace trajlo {
+
+void EnterMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end, ThreadPool* threads,
+              MapPyramid* map) {
+  constexpr std::size_t kChunk = 512;
+  const SegmentMotion motion(T_begin, T_end);
+  const std::vector<SegmentPoint>& points = cloud.map_points;
+  std::vector<std::vector<Eigen::Vector3d>> chunks((points.size() + kChunk - 1) / kChunk);
+  threads->ParallelFor(chunks.size(), [&](std::size_t i) {
+    const std::size_t first = i * kChunk;
+    const std::size_t count = std::min(kChunk, points.size() - first);
+    chunks[i].resize(count);
+    PointsToWorld(motion, &points[first], count, chunks[i].data());
+    // Most of what is seen is in the map already, which several threads find out sooner than the
+    // insertion, which must keep the order.
+    map->DropRefused(&chunks[i]);
+  });
+  std::vector<Eigen::Vector3d> wanted;
+  for (const auto& chunk : chunks) wanted.insert(wanted.end(), chunk.begin(), chunk.end());
+  map->Insert(wanted);
+}
+
+}  // namespace trajlo
