@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/odometry/map/plane_fit.h"
@@ -20,23 +21,27 @@ class PlaneCells {
   static constexpr std::uint32_t kPerSite = 8;
 
   /// For sites with numbers below `sites`. Not beside Get().
-  void Resize(std::size_t sites) { cells_.resize(kPerSite * sites); }
+  void Resize(std::size_t sites) {
+    while (blocks_.size() << kSitesPerBlockLog2 < sites) {
+      blocks_.push_back(std::make_unique<Cell[]>(kPerSite << kSitesPerBlockLog2));
+    }
+  }
   /// Forgets the planes of a site. Not beside Get().
   void Clear(std::uint32_t site) {
     for (std::uint32_t i = 0; i < kPerSite; ++i) {
-      cells_[kPerSite * site + i].fitted_at.store(kNever, std::memory_order_relaxed);
+      At(site, i).fitted_at.store(kNever, std::memory_order_relaxed);
     }
   }
 
   void Prefetch(std::uint32_t site, std::uint32_t cell) const {
-    __builtin_prefetch(&cells_[kPerSite * site + cell]);
+    __builtin_prefetch(&At(site, cell));
   }
 
   /// The plane that is kept, or else that of `fit()`. `points_around` > 0.
   template <typename Fit>
   FittedPlane Get(std::uint32_t site, std::uint32_t cell, std::uint32_t points_around,
                   const Fit& fit) const {
-    Cell& kept = cells_[kPerSite * site + cell];
+    Cell& kept = At(site, cell);
     std::uint32_t fitted_at = kept.fitted_at.load(std::memory_order_acquire);
     if (Stands(fitted_at, points_around)) return kept.plane;
     const bool is_mine =
@@ -50,18 +55,11 @@ class PlaneCells {
     return plane;
   }
 
-  std::size_t size() const { return cells_.size(); }
-
  private:
   static constexpr std::uint32_t kNever = 0;
   static constexpr std::uint32_t kClaimed = ~std::uint32_t{0};
 
   struct alignas(32) Cell {
-    Cell() = default;
-    // Only to let the vector grow, which no query runs beside.
-    Cell(const Cell& other)
-        : plane(other.plane), fitted_at(other.fitted_at.load(std::memory_order_relaxed)) {}
-
     FittedPlane plane;
     std::atomic<std::uint32_t> fitted_at{kNever};  ///< Points around its site at the fit.
   };
@@ -72,7 +70,15 @@ class PlaneCells {
            points_around - fitted_at <= fitted_at / 8 + 1;
   }
 
-  mutable std::vector<Cell> cells_;
+  static constexpr std::uint32_t kSitesPerBlockLog2 = 10;
+
+  Cell& At(std::uint32_t site, std::uint32_t cell) const {
+    constexpr std::uint32_t kLast = (std::uint32_t{1} << kSitesPerBlockLog2) - 1;
+    return blocks_[site >> kSitesPerBlockLog2][kPerSite * (site & kLast) + cell];
+  }
+
+  /// They stay where they are while the map grows.
+  std::vector<std::unique_ptr<Cell[]>> blocks_;
 };
 
 }  // namespace trajlo
