@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace trajlo {
@@ -12,8 +14,10 @@ namespace trajlo {
 /// so that no result depends on how many threads there are.
 class ThreadPool {
  public:
-  /// `threads` = 0 takes all cores.
-  explicit ThreadPool(int threads) : arena_(threads > 0 ? threads : tbb::task_arena::automatic) {}
+  /// `threads` = 0 takes all cores; no more than there are would be of use.
+  explicit ThreadPool(int threads)
+      : arena_(threads > 0 ? std::min(threads, tbb::info::default_concurrency())
+                           : tbb::task_arena::automatic) {}
 
   int threads() { return arena_.max_concurrency(); }
 
