@@ -17,8 +17,8 @@ struct RegistrationPoint {
   /// By how much the noise of its map points tilts the plane: the variance of n in every direction
   /// within the plane (rad²). Infinite: the plane may be no surface at all.
   double normal_variance_rad2 = 0.0;
-  double coarseness =
-      1.0;  ///< Size of the plane's voxels, in the finest; 1 for a wide, thin plane.
+  /// Size of the plane's voxels, in those of the finest level; 1 for a wide and thin plane.
+  double coarseness = 1.0;
 
   /// nᵀx - d, metres, of the point at `x_world`.
   double DistanceToPlane(const Eigen::Vector3d& x_world) const {

@@ -32,8 +32,7 @@ struct MotionPriorOptions {
     d(OptionFor::kExperts, "translation_m2_s3", translation_m2_s3, Range<double>{1e-9, 1e9},
       "Spectral density of the acceleration: how freely the body moves. The translations of "
       "neighbouring segments of length dt differ by a variance of 2/3 of it times dt^3. "
-      "Self-tuning "
-      "begins here, and never goes below.");
+      "Self-tuning begins here and never goes below.");
     d(OptionFor::kExperts, "rotation_rad2_s3", rotation_rad2_s3, Range<double>{1e-9, 1e9},
       "The same for rotation.");
   }

@@ -21,9 +21,9 @@ namespace trajlo {
 /// proportion to how far it may be off, and the kernel c, which is in units of sigma /
 /// sqrt(weight), becomes c sqrt(1 + f). Far from its place a point takes a wrong plane, and the
 /// coarser ones are less wrong: their weight, 1 / coarseness⁴ where the place is known, becomes
-/// 1 / coarseness. Where the prediction is good, f is small for most points
-/// and nothing happens. Idea: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al.,
-/// Graduated Non-Convexity for Robust Spatial Perception, RA-L 2020.
+/// 1 / coarseness. Where the prediction is good, f is small for most points and nothing happens.
+/// Idea: A. Blake, A. Zisserman, Visual Reconstruction, 1987; H. Yang et al., Graduated
+/// Non-Convexity for Robust Spatial Perception, RA-L 2020.
 class GraduatedKernel {
  public:
   /// Before the newest segment of `window` is associated for the first time.

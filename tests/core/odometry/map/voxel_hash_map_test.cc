@@ -121,6 +121,24 @@ TEST(VoxelHashMap, IsBoundedByVoxelsTimesTwentyPoints) {
   EXPECT_EQ(Stored(map).size(), map.size());
 }
 
+TEST(VoxelHashMap, WhatItRefusesMayBeDroppedBefore) {
+  VoxelHashMap map = MakeMap(0.5, 0.12);
+  VoxelHashMap with_dropping = MakeMap(0.5, 0.12);
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const auto points = RandomPoints(3000, 2.0, Eigen::Vector3d(0.3 * seed, 0.0, 0.0), seed);
+    std::vector<Eigen::Vector3d> wanted = points;
+    with_dropping.DropRefused(&wanted);
+    std::vector<Eigen::Vector3d> accepted, accepted_of_wanted;
+    map.Insert(points, &accepted);
+    with_dropping.Insert(wanted, &accepted_of_wanted);
+    EXPECT_EQ(accepted, accepted_of_wanted);
+    EXPECT_EQ(Stored(map), Stored(with_dropping));
+    if (seed > 0) {
+      EXPECT_LT(wanted.size(), points.size());
+    }
+  }
+}
+
 TEST(VoxelHashMap, DropsWhatIsFarAndKeepsWhatIsNear) {
   VoxelHashMap map = MakeMap(0.5, 0.0, 10.0);
   std::vector<std::uint32_t> changed;
