@@ -68,7 +68,7 @@ void ScanSequencer::Add(const LidarScan& scan) {
   const bool is_plain = times->strays == 0 && track.clock().offset_ns() == 0;
   if (queue_.empty() && is_plain && track.GoesOn(scan, *times)) {
     track.Note(scan, *times);
-    hand_on_(scan);
+    Hand(scan, arrival);
     return;
   }
   queue_.push_back(std::make_unique<Entry>());
@@ -132,9 +132,14 @@ void ScanSequencer::Release() {
     Entry& front = *queue_.front();
     RemoveStrays(front.held.times, &front.held.scan);
     ShiftTimes(front.shift_ns, &front.held.scan);
-    hand_on_(front.held.scan);
+    Hand(front.held.scan, front.held.arrival);
     queue_.pop_front();
   }
+}
+
+void ScanSequencer::Hand(const LidarScan& scan, std::int64_t arrival) {
+  handed_on_arrival_ = arrival;
+  hand_on_(scan);
 }
 
 void ScanSequencer::Describe(std::size_t lidar) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -33,8 +34,10 @@ class ScanSequencer {
   /// No further scans: all that are held are judged.
   void Finish();
 
-  /// A point of a scan that was handed on is of use.
-  void NoteUse() { report_.until_last_point = report_.scans; }
+  /// A point of the scan that is being handed on is of use.
+  void NoteUse() {
+    report_.until_last_point = std::max(report_.until_last_point, handed_on_arrival_ + 1);
+  }
 
   const TimeReport& report() const { return report_; }
 
@@ -52,10 +55,12 @@ class ScanSequencer {
   void Describe(std::size_t lidar);
   void CompareSpans();
   void Remark(const std::string& sentence);
+  void Hand(const LidarScan& scan, std::int64_t arrival);
 
   std::int64_t max_lag_ns_;
   HandOn hand_on_;
   TimeReport report_;
+  std::int64_t handed_on_arrival_ = 0;  ///< Of the scan that was handed on last.
   std::vector<LidarTrack> tracks_;
   std::vector<bool> is_apart_;
   std::size_t first_lidar_ = 0;

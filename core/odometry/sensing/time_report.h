@@ -24,7 +24,7 @@ struct TimeReport {
   std::int64_t clock_steps = 0;  ///< Lasting ones: the later times are moved to go on.
   std::int64_t points = 0;       ///< Of the dropped scans, and those far from their scan's time.
   std::int64_t exchanged = 0;  ///< Of scans that were handed on: seem to have each other's points.
-  std::int64_t until_last_point = 0;  ///< Scans that had come when a point was used last.
+  std::int64_t until_last_point = 0;  ///< Scans up to the last one with a point of use.
 
   /// One LiDAR begins later than another, and ends as much later.
   bool clocks_may_differ = false;

@@ -533,6 +533,23 @@ TEST(ScanSequencer, ScansWithoutPointsAreNoMatter) {
   ExpectNothingDone(result.report);
 }
 
+TEST(ScanSequencer, CountsTheScansAfterTheLastOneOfUse) {
+  // The last scan with points comes after a pause: it is held, and handed on when all have come.
+  std::vector<LidarScan> scans = WithStamps(Regular(40));
+  scans[19] = MakeScan(19, scans[19].stamp_ns + 300 * kMs);
+  for (std::size_t i = 20; i < scans.size(); ++i) scans[i].points.clear();
+  std::size_t handed_on = 0;
+  ScanSequencer sequencer(0.5, [&](const LidarScan&) {
+    ++handed_on;
+    sequencer.NoteUse();
+  });
+  for (const LidarScan& scan : scans) sequencer.Add(scan);
+  EXPECT_EQ(handed_on, 19U);
+  sequencer.Finish();
+  EXPECT_EQ(handed_on, 20U);
+  EXPECT_EQ(sequencer.report().Unseen(), 20);
+}
+
 TEST(ScanSequencer, AnyStampsGiveIncreasingTimesAndEveryScanIsAccountedFor) {
   for (unsigned seed = 0; seed < 2000; ++seed) {
     std::mt19937_64 random(seed);
