@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Damage to the stamps of scans. Each fault changes a recording and says what it did."""
+import statistics
+
 from trajlo_campaign.recording import PERIOD_NS
 
 STEPS_S = (-86400.0, -3600.0, -30.0, -2.0, -0.5, 0.35, 0.5, 2.0, 30.0, 3600.0, 86400.0)
@@ -81,9 +83,11 @@ def reversed_stamps(recording, _):
 def slow_clock(recording, rng):
     """The clock runs at another rate, up to one in a hundred."""
     rate = float(rng.uniform(-0.01, 0.01))
-    start = recording.stamp(0)
-    for index in range(len(recording)):
-        recording.set_stamp(index, start + round((recording.stamp(index) - start) * (1 + rate)))
+    stamps = [recording.stamp(index) for index in range(len(recording))]
+    # Another fault may have spoilt the first ones.
+    middle = statistics.median_low(stamps)
+    for index, stamp in enumerate(stamps):
+        recording.set_stamp(index, max(0, middle + round((stamp - middle) * (1 + rate))))
     return f"clock {100 * rate:.2f} % fast"
 
 

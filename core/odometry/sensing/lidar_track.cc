@@ -135,9 +135,15 @@ bool LidarTrack::DidTimePass(std::size_t i, const Others& others) const {
   return !others_say_no && Ahead(held) <= kLongestPause_ns;
 }
 
+/// Whether the scan would come next if the clock had never stepped: it went back to where it was. A
+/// pause is hardly ever as long as the step.
+bool LidarTrack::IsBackOnTime(const HeldScan& held) const {
+  return clock_.offset_ns() != 0 && clock_.IsNext(held.times.begin_ns);
+}
+
 bool LidarTrack::IsSameClock(std::size_t i, const Others& others) const {
   const std::int64_t ahead_ns = Ahead(*held_[i]);
-  if (ahead_ns <= 0) return false;
+  if (ahead_ns <= 0 || IsBackOnTime(*held_[i])) return false;
   // Times of recording do not tell of so little time. Where there are other LiDARs, the views of
   // one alone are not asked.
   if (ahead_ns <= clock_.longest_step_ns()) return !others.started.empty() || !IsNextByView(i);

@@ -123,6 +123,7 @@ class LidarTrack {
   /// How many scans, from this one on, go on from each other.
   std::size_t ChainLength(std::size_t first) const;
   bool DidTimePass(std::size_t i, const Others& others) const;
+  bool IsBackOnTime(const HeldScan& held) const;
   bool IsSameClock(std::size_t i, const Others& others) const;
   bool IsNextByView(std::size_t i) const;
   std::size_t FirstByView(std::size_t next) const;

@@ -216,13 +216,28 @@ TEST(ScanSequencer, FollowsAStepOfTheClockThatLasts) {
 }
 
 TEST(ScanSequencer, AClockThatStepsBackToWhereItWasIsExactlyThere) {
-  std::vector<std::int64_t> stamps = Regular(60);
-  for (std::size_t i = 20; i < 40; ++i) stamps[i] -= kHour;
-  for (std::size_t i = 40; i < 60; ++i) stamps[i] += 3 * kMs;
-  const Result result = SequenceStamps(stamps);
-  ASSERT_EQ(result.scans.size(), 60u);
-  EXPECT_EQ(result.report.clock_steps, 2);
-  for (std::size_t i = 40; i < 60; ++i) EXPECT_EQ(result.scans[i].stamp_ns, stamps[i]);
+  // Ahead by an hour is no pause; by less it would be one, if the clock had not stepped before.
+  for (const std::int64_t step : {kHour, 30 * kSecond, kSecond, 5 * kPeriod}) {
+    std::vector<std::int64_t> stamps = Regular(60);
+    for (std::size_t i = 20; i < 40; ++i) stamps[i] -= step;
+    for (std::size_t i = 40; i < 60; ++i) stamps[i] += 3 * kMs;
+    const Result result = SequenceStamps(stamps);
+    ASSERT_EQ(result.scans.size(), 60u);
+    EXPECT_EQ(result.report.clock_steps, 2) << step;
+    for (std::size_t i = 40; i < 60; ++i) EXPECT_EQ(result.scans[i].stamp_ns, stamps[i]) << step;
+  }
+}
+
+TEST(ScanSequencer, APauseAfterAStepOfTheClockIsStillAPause) {
+  for (const std::int64_t pause : {kSecond, 10 * kSecond, 50 * kSecond}) {
+    std::vector<std::int64_t> stamps = Regular(60);
+    for (std::size_t i = 20; i < 60; ++i) stamps[i] -= 30 * kSecond;
+    for (std::size_t i = 40; i < 60; ++i) stamps[i] += pause;
+    const Result result = SequenceStamps(stamps);
+    ASSERT_EQ(result.scans.size(), 60u);
+    EXPECT_EQ(result.report.clock_steps, 1) << pause;
+    EXPECT_EQ(result.scans[59].stamp_ns, stamps[59] + 30 * kSecond) << pause;
+  }
 }
 
 TEST(ScanSequencer, AStepOfAClockThatWaitsForItsTimeIsTakenBackByTheTimesOfRecording) {
