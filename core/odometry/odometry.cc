@@ -16,10 +16,6 @@
 namespace trajlo {
 namespace {
 
-/// Of the points of a segment whose pose is in doubt, so many are on the map before the others
-/// extend it: half if they agree and merely leave a direction open, as in a tunnel.
-constexpr double kMayEnterMap = 0.75;
-constexpr double kMayEnterMapIfOpen = 0.5;
 /// Fewer points make no map: the recording begins again with what comes next.
 constexpr std::size_t kFewestToBegin = 20;
 /// The window keeps so few segments where fewer of the newest points than this share have a plane.
@@ -130,8 +126,8 @@ void Odometry::Step(SegmentCloud cloud) {
     Revert(predicted, &window_);
   }
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
-  lasting_flags_ = LastingFlags(lasting_flags_, window_, statistics);
-  statistics.flags |= lasting_flags_;
+  doubt_.Update(window_, statistics, motion_prior_.density());
+  statistics.flags |= doubt_.flags();
   window_.segments.back().flags = statistics.flags;
   Describe(window_, &statistics);
   const int to_keep = SegmentsToKeep();
@@ -163,14 +159,9 @@ void Odometry::Learn(const SE3& T_world_predicted) {
                       window_.segments.back().Duration_s());
 }
 
-/// What no plane agrees with may be a hand before the LiDAR. And after a time in which points did
-/// not hold the body, it may be where the map does not know it: a map that grew there would prove
-/// it right.
+/// What no plane agrees with may be a hand before the LiDAR.
 bool Odometry::MayEnterMap(const Segment& segment) const {
-  if (IsUnsupported(window_, segment)) return false;
-  if (lasting_flags_ == 0) return true;
-  const bool is_open = lasting_flags_ == kFlagDegenerate;
-  return ShareOnMap(window_, segment) >= (is_open ? kMayEnterMapIfOpen : kMayEnterMap);
+  return !IsUnsupported(window_, segment) && doubt_.MayEnterMap(window_, segment);
 }
 
 /// Points enter the map when they leave the window. In a fast turn that comes too late: the newest

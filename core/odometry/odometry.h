@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/odometry/health/doubt.h"
 #include "core/odometry/health/support.h"
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
@@ -98,6 +99,7 @@ class Odometry {
   std::unique_ptr<WindowSolver> solver_;
   LossWatch loss_watch_;
   SupportWatch support_;
+  DoubtWatch doubt_;
   MeanAttitude attitude_;
   std::optional<ReturnSearch> search_;  ///< While nobody knows where the body is.
   Window window_;
@@ -106,7 +108,6 @@ class Odometry {
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;
   std::optional<SegmentCloud> first_scan_;  ///< Of a map that begins with one time.
-  unsigned lasting_flags_ = 0;              ///< Of the window before, see LastingFlags.
   bool started_ = false;
   std::int64_t windows_ = 0;
 };

@@ -12,8 +12,6 @@ constexpr double kMaxCorrection_m = 3.0;
 constexpr double kMaxCorrection_rad = 1.0;
 constexpr double kMaxSpeed_m_s = 100.0;
 constexpr double kMaxTurnRate_rad_s = 60.0;
-/// Of all points, if a window that was not held has settled where it belongs.
-constexpr double kOnMap = 0.75;
 
 }  // namespace
 
@@ -55,14 +53,6 @@ void Judge(const LostOptions& options, double points_per_error, Window* window,
   if (condition.smallest_eigenvalue * sigma_m * sigma_m < 1.0) {
     statistics->flags |= kFlagDegenerate;
   }
-}
-
-unsigned LastingFlags(unsigned before, const Window& window, const WindowStatistics& statistics) {
-  const unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
-  if (unheld != 0) return unheld;
-  if (before == 0) return 0;
-  return statistics.has_converged && ShareOnMap(window, window.segments.back()) >= kOnMap ? 0U
-                                                                                          : before;
 }
 
 }  // namespace trajlo

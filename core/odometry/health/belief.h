@@ -22,9 +22,4 @@ void Revert(const std::vector<SE3>& poses, Window* window);
 void Judge(const LostOptions& options, double points_per_error, Window* window,
            WindowStatistics* statistics);
 
-/// The flags of a window that outlast it. Where points did not hold a pose, those behind it may be
-/// on planes to which they do not belong: it is trusted again when a window has settled on the map.
-/// `before` are those of the window before.
-unsigned LastingFlags(unsigned before, const Window& window, const WindowStatistics& statistics);
-
 }  // namespace trajlo

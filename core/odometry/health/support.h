@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/odometry/window/window.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 
@@ -12,10 +15,20 @@ namespace trajlo {
 /// silent. Points without a plane say nothing: they may see a new part of the world.
 bool IsUnsupported(const Window& window, const Segment& segment);
 
-/// The share of all points of a segment that lie on planes of the map: nine of ten at the right
-/// pose in a part of the world that the map knows, half of them or fewer in wrong minima (simulated
-/// rooms).
-double ShareOnMap(const Window& window, const Segment& segment);
+/// A point within this distance is on its plane: the error of a prediction after a short pause.
+constexpr double kOnPlane_m = 0.2;
+
+/// Calls f(point, is_on_plane) for every `stride`-th point of a segment that has a plane.
+template <typename F>
+void ForEachPoint(const Window& window, const Segment& segment, std::size_t stride, F f) {
+  const auto k = static_cast<int>(&segment - window.segments.data());
+  const SegmentMotion motion(window.Pose(k), segment.T_world_end);
+  for (std::size_t i = 0; i < segment.points.size(); i += stride) {
+    const RegistrationPoint& point = segment.points[i];
+    const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
+    f(point, std::abs(point.DistanceToPlane(p_world)) < kOnPlane_m);
+  }
+}
 
 /// Notices when the motion prior has carried the window for too long. Its uncertainty grows with
 /// sqrt(q t³ / 3); once it is more than a registration from the prediction bridges, the place must

@@ -60,39 +60,6 @@ TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
   EXPECT_FALSE(at(0.0, -1.05));
 }
 
-/// A body at rest that sees 100 points, of which so many lie on the floor, the map of which it has.
-Window OnAFloor(int on_plane) {
-  Window window;
-  window.segments.resize(1);
-  Segment& segment = window.segments[0];
-  segment.cloud.registration_points.resize(100);
-  for (int i = 0; i < on_plane; ++i) {
-    segment.points.push_back(
-        {Eigen::Vector3d(0.1 * i, 2.0, 0.0), 0.5, Eigen::Vector3d::UnitZ(), 0.0, 1.0, 0.0});
-  }
-  return window;
-}
-
-TEST(Belief, WhatPointsDidNotHoldIsTrustedAgainWhenAWindowHasSettledOnTheMap) {
-  const Window known = OnAFloor(90), unknown = OnAFloor(60);
-  unsigned lasting = 0;
-  const auto add = [&](unsigned flags, bool has_converged, const Window& window) {
-    WindowStatistics statistics;
-    statistics.flags = flags;
-    statistics.has_converged = has_converged;
-    return lasting = LastingFlags(lasting, window, statistics);
-  };
-  EXPECT_EQ(add(kFlagNotConverged, false, known), 0u);
-  EXPECT_EQ(add(kFlagDegenerate, true, known), +kFlagDegenerate);
-  EXPECT_EQ(add(kFlagNotConverged, false, known), +kFlagDegenerate);
-  EXPECT_EQ(add(0, true, unknown), +kFlagDegenerate) << "it may be anywhere";
-  EXPECT_EQ(add(0, true, known), 0u);
-  EXPECT_EQ(add(0, true, unknown), 0u) << "a new part of the world, from one that is known";
-  EXPECT_EQ(add(kFlagNotConverged, false, known), 0u);
-  EXPECT_EQ(add(kFlagNoPoints | kFlagReverted, false, known), kFlagNoPoints | kFlagReverted);
-  EXPECT_EQ(add(kFlagNotConverged, false, known), kFlagNoPoints | kFlagReverted);
-}
-
 TEST(Belief, ARevertedWindowForgetsItsRegistration) {
   Window window = testing::MakeTestWindow(3);
   const std::vector<SE3> start(5);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/doubt.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "core/odometry/health/support.h"
+
+namespace trajlo {
+namespace {
+
+constexpr double kHandful = 20.0;
+constexpr double kFewOfAll = 0.05;
+/// A body that knows its place may see a new part of the world with the other half of its points.
+constexpr double kOnMap = 0.5;
+/// Of the usual agreement. At right places it has 0.96 of itself in nineteen of twenty windows, at
+/// wrong ones 0.6 to 0.9 (simulated rooms).
+constexpr double kAsUsual = 0.95;
+/// The usual is a mean over about so many windows.
+constexpr double kWindows = 20.0;
+/// In doubt where three standard deviations of what was not seen are more than this, for rotations
+/// at a distance of 2.2 m: points are no longer near their planes.
+constexpr double kMoved_m = kOnPlane_m;
+constexpr double kMoved_rad = 0.45 * kOnPlane_m;
+
+}  // namespace
+
+MapAgreement AgreementOf(const Window& window, const Segment& segment) {
+  const auto with_plane = static_cast<double>(segment.points.size());
+  Eigen::Matrix3d all = (kHandful + kFewOfAll * with_plane) * Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d on_plane = all;
+  double on_map = 0.0;
+  ForEachPoint(window, segment, 1, [&](const RegistrationPoint& point, bool is_on_plane) {
+    const Eigen::Matrix3d nnt = point.normal_world * point.normal_world.transpose();
+    all += nnt;
+    if (!is_on_plane) return;
+    on_plane += nnt;
+    ++on_map;
+  });
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> shares(on_plane, all,
+                                                                         Eigen::EigenvaluesOnly);
+  const auto points = static_cast<double>(segment.cloud.registration_points.size());
+  return {on_map / std::max(points, 1.0), shares.eigenvalues()[0]};
+}
+
+void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics,
+                        const Vector6d& density) {
+  const unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
+  if (unheld == 0 || held_until_ns_ == 0) held_until_ns_ = window.EndNs();
+  if (unheld != 0) {
+    const double unheld_s = 1e-9 * static_cast<double>(window.EndNs() - held_until_ns_);
+    const bool may_have_moved = 3.0 * UnseenSigma(density[0], unheld_s) > kMoved_m ||
+                                3.0 * UnseenSigma(density[3], unheld_s) > kMoved_rad;
+    if (may_have_moved || flags_ != 0) flags_ = unheld;
+  } else if (flags_ == 0) {
+    const double agreement = AgreementOf(window, window.segments.back()).worst;
+    usual_agreement_ += (agreement - usual_agreement_) / kWindows;
+  } else if (statistics.has_converged &&
+             std::all_of(window.segments.begin(), window.segments.end(),
+                         [&](const Segment& segment) { return Agrees(window, segment); })) {
+    flags_ = 0;
+  }
+}
+
+bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
+  return flags_ == 0 || Agrees(window, segment);
+}
+
+bool DoubtWatch::Agrees(const Window& window, const Segment& segment) const {
+  const MapAgreement agreement = AgreementOf(window, segment);
+  return agreement.on_map >= kOnMap && agreement.worst >= kAsUsual * usual_agreement_;
+}
+
+}  // namespace trajlo

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "core/odometry/health/window_statistics.h"
+#include "core/odometry/window/window.h"
+
+namespace trajlo {
+
+/// How the points of a segment lie on the map.
+struct MapAgreement {
+  /// Share of all points that lie on planes of the map.
+  double on_map = 0.0;
+  /// Of the points that have a plane, the share that lies on it, in the direction in which it is
+  /// least: a wrong place often agrees with the floor, and not with the walls. Over the normals n
+  /// of these N points, it is the least of uᵀ (Σ_on n nᵀ + c I) u / uᵀ (Σ n nᵀ + c I) u for any u.
+  /// With c = 20 + N / 20, a direction that few points face says nothing.
+  double worst = 1.0;
+};
+MapAgreement AgreementOf(const Window& window, const Segment& segment);
+
+/// Doubts the place of a body that its points did not hold for so long that it may have moved off
+/// the planes which it is on. It may settle on planes to which it does not belong, and a map that
+/// grew there would prove it right: so poses stay flagged, and the map does not grow, until points
+/// agree with it in all directions as well as they did before.
+class DoubtWatch {
+ public:
+  /// After `window` was judged; `density` is that of the acceleration, see MotionPrior.
+  void Update(const Window& window, const WindowStatistics& statistics, const Vector6d& density);
+
+  /// Why the newest pose is in doubt: flags of a window, or 0.
+  unsigned flags() const { return flags_; }
+  /// Whether the points of a segment may extend the map.
+  bool MayEnterMap(const Window& window, const Segment& segment) const;
+
+ private:
+  bool Agrees(const Window& window, const Segment& segment) const;
+
+  unsigned flags_ = 0;
+  std::int64_t held_until_ns_ = 0;
+  double usual_agreement_ = 1.0;  ///< MapAgreement::worst, of late, without doubt.
+};
+
+}  // namespace trajlo

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/doubt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace trajlo {
+namespace {
+
+/// So many points of a floor and of a wall, of all and of those on their planes. Points without a
+/// plane come on top.
+struct Seen {
+  int floor = 500, on_floor = 490;
+  int wall = 100, on_wall = 98;
+  int without_plane = 0;
+};
+
+void AddPoints(const Eigen::Vector3d& normal, int all, int on_plane, Segment* segment) {
+  for (int i = 0; i < all; ++i) {
+    const double distance_m = i < on_plane ? 0.1 : 0.3;
+    segment->points.push_back({distance_m * normal, 0.5, normal, 0.0, 1.0, 0.0});
+  }
+}
+
+/// A body at rest, one segment of 30 ms that ends at `end_s`.
+Window Standing(const Seen& seen, double end_s = 0.03) {
+  Window window;
+  window.begin_ns = std::llround((end_s - 0.03) * 1e9);
+  window.segments.resize(1);
+  Segment& segment = window.segments[0];
+  segment.cloud.begin_ns = window.begin_ns;
+  segment.cloud.end_ns = std::llround(end_s * 1e9);
+  AddPoints(Eigen::Vector3d::UnitZ(), seen.floor, seen.on_floor, &segment);
+  AddPoints(Eigen::Vector3d(0.6, 0.8, 0.0), seen.wall, seen.on_wall, &segment);
+  segment.cloud.registration_points.resize(segment.points.size() +
+                                           static_cast<std::size_t>(seen.without_plane));
+  return window;
+}
+
+MapAgreement Agreement(const Seen& seen) {
+  const Window window = Standing(seen);
+  return AgreementOf(window, window.segments[0]);
+}
+
+TEST(MapAgreement, IsThatOfTheDirectionThatAgreesLeast) {
+  const MapAgreement good = Agreement({});
+  EXPECT_DOUBLE_EQ(good.on_map, 588.0 / 600.0);
+  EXPECT_NEAR(good.worst, 0.98, 0.01);
+  // The floor agrees, the wall does not: c is 20 + 600 / 20.
+  const MapAgreement wrong = Agreement({500, 490, 100, 40, 0});
+  EXPECT_NEAR(wrong.worst, (40.0 + 50.0) / (100.0 + 50.0), 1e-9);
+  EXPECT_GT(wrong.on_map, 0.85);
+}
+
+TEST(MapAgreement, ADirectionThatFewPointsFaceSaysLittle) {
+  EXPECT_GT(Agreement({2000, 2000, 4, 0, 0}).worst, 0.95);
+  EXPECT_GT(Agreement({20, 20, 1, 0, 0}).worst, 0.95);
+  EXPECT_DOUBLE_EQ(Agreement({0, 0, 0, 0, 100}).worst, 1.0);
+  EXPECT_DOUBLE_EQ(Agreement({0, 0, 0, 0, 100}).on_map, 0.0);
+}
+
+TEST(MapAgreement, PointsWithoutAPlaneAreNotOnTheMapAndDisagreeWithNothing) {
+  const MapAgreement half = Agreement({500, 490, 100, 98, 600});
+  EXPECT_DOUBLE_EQ(half.on_map, 588.0 / 1200.0);
+  EXPECT_NEAR(half.worst, 0.98, 0.01);
+}
+
+/// Windows of a body that follow one another.
+class Watched {
+ public:
+  explicit Watched(double density_m2_s3 = 100.0, double density_rad2_s3 = 1e-6) {
+    density_ << Eigen::Vector3d::Constant(density_m2_s3),
+        Eigen::Vector3d::Constant(density_rad2_s3);
+  }
+
+  /// The flags of the doubt after one more window with these flags of its own.
+  unsigned Add(unsigned flags, const Seen& seen = {}, bool has_converged = true) {
+    return Add(flags, Standing(seen, end_s_ += 0.03), has_converged);
+  }
+  unsigned Add(unsigned flags, const Window& window, bool has_converged) {
+    WindowStatistics statistics;
+    statistics.flags = flags;
+    statistics.has_converged = has_converged;
+    watch_.Update(window, statistics, density_);
+    return watch_.flags();
+  }
+  bool MayEnterMap(const Seen& seen) const {
+    const Window window = Standing(seen);
+    return watch_.MayEnterMap(window, window.segments[0]);
+  }
+
+ private:
+  DoubtWatch watch_;
+  double end_s_ = 0.0;
+  Vector6d density_;
+};
+
+/// A body that was held, and then was not for so long that it is in doubt.
+Watched InDoubt(const Seen& usual = {}) {
+  Watched body;
+  for (int i = 0; i < 200; ++i) body.Add(0, usual);
+  body.Add(kFlagDegenerate);
+  EXPECT_EQ(body.Add(kFlagNoPoints), +kFlagNoPoints);
+  return body;
+}
+
+const Seen kNewPart{500, 490, 100, 98, 1000};
+const Seen kWrongWall{500, 490, 100, 50, 0};
+
+/// How many windows in a row that points do not hold raise a doubt.
+int WindowsUntilDoubt(double density_m2_s3, double density_rad2_s3) {
+  Watched body(density_m2_s3, density_rad2_s3);
+  body.Add(0);
+  int windows = 1;
+  while (body.Add(kFlagDegenerate) == 0 && windows < 1000) ++windows;
+  return windows;
+}
+
+TEST(DoubtWatch, BeginsWhenTheBodyMayHaveMovedOffItsPlanes) {
+  // 3 sqrt(q t³ / 3) is 0.2 m after 0.237 s with q = 1 m²/s³, after 0.051 s with 100.
+  EXPECT_EQ(WindowsUntilDoubt(1.0, 1e-6), 8);
+  EXPECT_EQ(WindowsUntilDoubt(100.0, 1e-6), 2);
+  // And 0.09 rad after 0.139 s with 1 rad²/s³.
+  EXPECT_EQ(WindowsUntilDoubt(1e-6, 1.0), 5);
+}
+
+TEST(DoubtWatch, AWindowThatIsHeldBeginsTheTimeAnew) {
+  Watched body;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(body.Add(0), 0U);
+    EXPECT_EQ(body.Add(kFlagDegenerate), 0U);
+  }
+}
+
+TEST(DoubtWatch, LastsUntilAWindowHasSettledOnTheMap) {
+  Watched body = InDoubt();
+  EXPECT_EQ(body.Add(0, kWrongWall), +kFlagNoPoints);
+  EXPECT_EQ(body.Add(0, kNewPart), +kFlagNoPoints) << "it may be anywhere";
+  EXPECT_EQ(body.Add(kFlagNotConverged, Seen(), false), +kFlagNoPoints);
+  EXPECT_EQ(body.Add(kFlagReverted), +kFlagReverted);
+  EXPECT_EQ(body.Add(0), 0U);
+  EXPECT_EQ(body.Add(0, kNewPart), 0U) << "a new part of the world, from one that is known";
+}
+
+TEST(DoubtWatch, EverySegmentOfTheWindowMustAgree) {
+  Watched body = InDoubt();
+  Window window = Standing({}, 10.0);
+  window.segments.push_back(window.segments[0]);
+  Window one_is_wrong = window;
+  one_is_wrong.segments[0] = Standing(kWrongWall, 10.0).segments[0];
+  EXPECT_NE(body.Add(0, one_is_wrong, true), 0U);
+  EXPECT_EQ(body.Add(0, window, true), 0U);
+}
+
+TEST(DoubtWatch, AgreementIsMeasuredByWhatIsUsual) {
+  // Leaves, people: a fifth of what stands upright is never on its plane.
+  const Seen restless{500, 490, 100, 80, 0};
+  EXPECT_NE(InDoubt().Add(0, restless), 0U);
+  EXPECT_EQ(InDoubt(restless).Add(0, restless), 0U);
+  EXPECT_NE(InDoubt(restless).Add(0, kWrongWall), 0U);
+}
+
+TEST(DoubtWatch, InDoubtOnlyWhatAgreesEntersTheMap) {
+  Watched body = InDoubt();
+  EXPECT_TRUE(body.MayEnterMap({}));
+  EXPECT_FALSE(body.MayEnterMap(kWrongWall));
+  EXPECT_FALSE(body.MayEnterMap(kNewPart));
+  body.Add(0);
+  EXPECT_TRUE(body.MayEnterMap(kWrongWall));
+  EXPECT_TRUE(body.MayEnterMap(kNewPart));
+}
+
+}  // namespace
+}  // namespace trajlo
