@@ -14,8 +14,8 @@ struct MapAgreement {
   double on_map = 0.0;
   /// Of the points that have a plane, the share that lies on it, in the direction in which it is
   /// least: a wrong place often agrees with the floor, and not with the walls. Over the normals n
-  /// of these N points, it is the least of uᵀ (Σ_on n nᵀ + c I) u / uᵀ (Σ n nᵀ + c I) u for any u.
-  /// With c = 20 + N / 20, a direction that few points face says nothing.
+  /// of these points, it is the least of uᵀ (Σ_on n nᵀ + c I) u / uᵀ (Σ n nᵀ + c I) u for any u.
+  /// With c = 100, a direction that much fewer points face says little.
   double worst = 1.0;
 };
 MapAgreement AgreementOf(const Window& window, const Segment& segment);

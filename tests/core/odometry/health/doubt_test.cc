@@ -47,9 +47,9 @@ TEST(MapAgreement, IsThatOfTheDirectionThatAgreesLeast) {
   const MapAgreement good = Agreement({});
   EXPECT_DOUBLE_EQ(good.on_map, 588.0 / 600.0);
   EXPECT_NEAR(good.worst, 0.98, 0.01);
-  // The floor agrees, the wall does not: c is 20 + 600 / 20.
+  // The floor agrees, the wall does not.
   const MapAgreement wrong = Agreement({500, 490, 100, 40, 0});
-  EXPECT_NEAR(wrong.worst, (40.0 + 50.0) / (100.0 + 50.0), 1e-9);
+  EXPECT_NEAR(wrong.worst, (40.0 + 100.0) / (100.0 + 100.0), 1e-9);
   EXPECT_GT(wrong.on_map, 0.85);
 }
 
@@ -106,7 +106,7 @@ Watched InDoubt(const Seen& usual = {}) {
 }
 
 const Seen kNewPart{500, 490, 100, 98, 1000};
-const Seen kWrongWall{500, 490, 100, 50, 0};
+const Seen kWrongWall{500, 490, 100, 20, 0};
 
 /// How many windows in a row that points do not hold raise a doubt.
 int WindowsUntilDoubt(double density_m2_s3, double density_rad2_s3) {
@@ -154,8 +154,8 @@ TEST(DoubtWatch, EverySegmentOfTheWindowMustAgree) {
 }
 
 TEST(DoubtWatch, AgreementIsMeasuredByWhatIsUsual) {
-  // Leaves, people: a fifth of what stands upright is never on its plane.
-  const Seen restless{500, 490, 100, 80, 0};
+  // Leaves, people: three tenths of what stands upright are never on their planes.
+  const Seen restless{500, 490, 100, 70, 0};
   EXPECT_NE(InDoubt().Add(0, restless), 0U);
   EXPECT_EQ(InDoubt(restless).Add(0, restless), 0U);
   EXPECT_NE(InDoubt(restless).Add(0, kWrongWall), 0U);
