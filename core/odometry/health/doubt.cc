@@ -18,8 +18,8 @@ constexpr double kOnMap = 0.5;
 constexpr double kAsUsual = 0.95;
 /// The usual is a mean over about so many windows.
 constexpr double kWindows = 20.0;
-/// In doubt where three standard deviations of what was not seen are more than this, for rotations
-/// at a distance of 2.2 m: points are no longer near their planes.
+/// What three standard deviations of an unseen motion may be without a doubt: points are still near
+/// their planes. Rotations count at a distance of 2.2 m.
 constexpr double kMoved_m = kOnPlane_m;
 constexpr double kMoved_rad = 0.45 * kOnPlane_m;
 

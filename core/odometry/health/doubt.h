@@ -15,15 +15,15 @@ struct MapAgreement {
   /// Of the points that have a plane, the share that lies on it, in the direction in which it is
   /// least: a wrong place often agrees with the floor, and not with the walls. Over the normals n
   /// of these points, it is the least of uᵀ (Σ_on n nᵀ + c I) u / uᵀ (Σ n nᵀ + c I) u for any u.
-  /// With c = 100, a direction that much fewer points face says little.
+  /// With c = 100, a direction that only a few points face says little.
   double worst = 1.0;
 };
 MapAgreement AgreementOf(const Window& window, const Segment& segment);
 
-/// Doubts the place of a body that its points did not hold for so long that it may have moved off
-/// the planes which it is on. It may settle on planes to which it does not belong, and a map that
-/// grew there would prove it right: so poses stay flagged, and the map does not grow, until points
-/// agree with it in all directions as well as they did before.
+/// Doubts the place of a body that its points did not hold for so long that it may have left the
+/// planes it was on. It may settle on planes to which it does not belong, and a map that grew there
+/// would prove it right. So poses stay flagged, and the map does not grow, until the points agree
+/// with it in all directions as well as they did before.
 class DoubtWatch {
  public:
   /// After `window` was judged; `density` is that of the acceleration, see MotionPrior.
