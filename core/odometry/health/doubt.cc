@@ -11,8 +11,11 @@ namespace {
 
 /// The c of MapAgreement.
 constexpr double kFewPoints = 100.0;
-/// A body that knows its place may see a new part of the world with the other half of its points.
-constexpr double kOnMap = 0.5;
+/// Of all points, so many must be on the map before the others extend it.
+constexpr double kToExtendMap = 0.5;
+/// And so many before the place is trusted: nine of ten are where the map has grown at the right
+/// place. Where it has grown at a wrong one, much of what is seen next is not on it.
+constexpr double kToTrust = 0.75;
 /// Of the usual agreement: most windows have it at the right place; wrong places have 0.6 to 0.9
 /// (simulated rooms).
 constexpr double kAsUsual = 0.95;
@@ -45,29 +48,34 @@ MapAgreement AgreementOf(const Window& window, const Segment& segment) {
 void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics,
                         const Vector6d& density) {
   const unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
-  if (unheld == 0 || held_until_ns_ == 0) held_until_ns_ = window.EndNs();
+  if (unheld == 0) held_until_ns_ = window.EndNs();
   if (unheld != 0) {
-    const double unheld_s = 1e-9 * static_cast<double>(window.EndNs() - held_until_ns_);
-    const bool may_have_moved = 3.0 * UnseenSigma(density[0], unheld_s) > kMoved_m ||
-                                3.0 * UnseenSigma(density[3], unheld_s) > kMoved_rad;
-    if (may_have_moved || flags_ != 0) flags_ = unheld;
+    if (flags_ != 0 || MayHaveMoved(window.EndNs(), density)) flags_ = unheld;
   } else if (flags_ == 0) {
     const double agreement = AgreementOf(window, window.segments.back()).worst;
     usual_agreement_ += (agreement - usual_agreement_) / kWindows;
-  } else if (statistics.has_converged &&
-             std::all_of(window.segments.begin(), window.segments.end(),
-                         [&](const Segment& segment) { return Agrees(window, segment); })) {
+  } else if (statistics.has_converged && std::all_of(window.segments.begin(), window.segments.end(),
+                                                     [&](const Segment& segment) {
+                                                       return Agrees(window, segment, kToTrust);
+                                                     })) {
     flags_ = 0;
   }
 }
 
-bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
-  return flags_ == 0 || Agrees(window, segment);
+bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const {
+  if (!held_until_ns_) return true;  // Nobody knows how fast.
+  const double unheld_s = 1e-9 * static_cast<double>(t_ns - *held_until_ns_);
+  return 3.0 * UnseenSigma(density[0], unheld_s) > kMoved_m ||
+         3.0 * UnseenSigma(density[3], unheld_s) > kMoved_rad;
 }
 
-bool DoubtWatch::Agrees(const Window& window, const Segment& segment) const {
+bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
+  return flags_ == 0 || Agrees(window, segment, kToExtendMap);
+}
+
+bool DoubtWatch::Agrees(const Window& window, const Segment& segment, double on_map) const {
   const MapAgreement agreement = AgreementOf(window, segment);
-  return agreement.on_map >= kOnMap && agreement.worst >= kAsUsual * usual_agreement_;
+  return agreement.on_map >= on_map && agreement.worst >= kAsUsual * usual_agreement_;
 }
 
 }  // namespace trajlo

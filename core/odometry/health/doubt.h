@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/window/window.h"
@@ -35,10 +36,11 @@ class DoubtWatch {
   bool MayEnterMap(const Window& window, const Segment& segment) const;
 
  private:
-  bool Agrees(const Window& window, const Segment& segment) const;
+  bool MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const;
+  bool Agrees(const Window& window, const Segment& segment, double on_map) const;
 
   unsigned flags_ = 0;
-  std::int64_t held_until_ns_ = 0;
+  std::optional<std::int64_t> held_until_ns_;
   double usual_agreement_ = 1.0;  ///< MapAgreement::worst, of late, without doubt.
 };
 

@@ -106,6 +106,7 @@ Watched InDoubt(const Seen& usual = {}) {
 }
 
 const Seen kNewPart{500, 490, 100, 98, 1000};
+const Seen kPartlyNew{500, 490, 100, 98, 300};
 const Seen kWrongWall{500, 490, 100, 20, 0};
 
 /// How many windows in a row that points do not hold raise a doubt.
@@ -125,6 +126,11 @@ TEST(DoubtWatch, BeginsWhenTheBodyMayHaveMovedOffItsPlanes) {
   EXPECT_EQ(WindowsUntilDoubt(1e-6, 1.0), 5);
 }
 
+TEST(DoubtWatch, ABodyThatWasNeverHeldMayMoveAtAnySpeed) {
+  Watched body(1e-6, 1e-6);
+  EXPECT_EQ(body.Add(kFlagNoPoints), +kFlagNoPoints);
+}
+
 TEST(DoubtWatch, AWindowThatIsHeldBeginsTheTimeAnew) {
   Watched body;
   for (int i = 0; i < 10; ++i) {
@@ -137,6 +143,7 @@ TEST(DoubtWatch, LastsUntilAWindowHasSettledOnTheMap) {
   Watched body = InDoubt();
   EXPECT_EQ(body.Add(0, kWrongWall), +kFlagNoPoints);
   EXPECT_EQ(body.Add(0, kNewPart), +kFlagNoPoints) << "it may be anywhere";
+  EXPECT_EQ(body.Add(0, kPartlyNew), +kFlagNoPoints) << "two thirds are on the map";
   EXPECT_EQ(body.Add(kFlagNotConverged, Seen(), false), +kFlagNoPoints);
   EXPECT_EQ(body.Add(kFlagReverted), +kFlagReverted);
   EXPECT_EQ(body.Add(0), 0U);
@@ -166,6 +173,7 @@ TEST(DoubtWatch, InDoubtOnlyWhatAgreesEntersTheMap) {
   EXPECT_TRUE(body.MayEnterMap({}));
   EXPECT_FALSE(body.MayEnterMap(kWrongWall));
   EXPECT_FALSE(body.MayEnterMap(kNewPart));
+  EXPECT_TRUE(body.MayEnterMap(kPartlyNew)) << "the map may grow before the place is trusted";
   body.Add(0);
   EXPECT_TRUE(body.MayEnterMap(kWrongWall));
   EXPECT_TRUE(body.MayEnterMap(kNewPart));
