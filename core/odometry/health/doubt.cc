@@ -48,12 +48,15 @@ MapAgreement AgreementOf(const Window& window, const Segment& segment) {
 void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics,
                         const Vector6d& density) {
   const unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
-  if (unheld == 0) held_until_ns_ = window.EndNs();
+  // At first, points that agree and leave a direction open are no reason for doubt.
+  const bool began = held_until_ns_ || (unheld & ~kFlagDegenerate) != 0;
+  if (unheld == 0 || !began) held_until_ns_ = window.EndNs();
   if (unheld != 0) {
     if (flags_ != 0 || MayHaveMoved(window.EndNs(), density)) flags_ = unheld;
   } else if (flags_ == 0) {
     const double agreement = AgreementOf(window, window.segments.back()).worst;
-    usual_agreement_ += (agreement - usual_agreement_) / kWindows;
+    const double usual = usual_agreement_.value_or(1.0);
+    usual_agreement_ = usual + (agreement - usual) / kWindows;
   } else if (statistics.has_converged && std::all_of(window.segments.begin(), window.segments.end(),
                                                      [&](const Segment& segment) {
                                                        return Agrees(window, segment, kToTrust);
@@ -70,12 +73,13 @@ bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const 
 }
 
 bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
-  return flags_ == 0 || Agrees(window, segment, kToExtendMap);
+  // A body that was never trusted has little of a map that could be spoilt.
+  return flags_ == 0 || !usual_agreement_ || Agrees(window, segment, kToExtendMap);
 }
 
 bool DoubtWatch::Agrees(const Window& window, const Segment& segment, double on_map) const {
   const MapAgreement agreement = AgreementOf(window, segment);
-  return agreement.on_map >= on_map && agreement.worst >= kAsUsual * usual_agreement_;
+  return agreement.on_map >= on_map && agreement.worst >= kAsUsual * usual_agreement_.value_or(1.0);
 }
 
 }  // namespace trajlo

@@ -41,7 +41,7 @@ class DoubtWatch {
 
   unsigned flags_ = 0;
   std::optional<std::int64_t> held_until_ns_;
-  double usual_agreement_ = 1.0;  ///< MapAgreement::worst, of late, without doubt.
+  std::optional<double> usual_agreement_;  ///< MapAgreement::worst, of late, without doubt.
 };
 
 }  // namespace trajlo

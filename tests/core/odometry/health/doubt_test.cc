@@ -129,6 +129,12 @@ TEST(DoubtWatch, BeginsWhenTheBodyMayHaveMovedOffItsPlanes) {
 TEST(DoubtWatch, ABodyThatWasNeverHeldMayMoveAtAnySpeed) {
   Watched body(1e-6, 1e-6);
   EXPECT_EQ(body.Add(kFlagNoPoints), +kFlagNoPoints);
+  EXPECT_TRUE(body.MayEnterMap(kNewPart)) << "or there would never be a map";
+}
+
+TEST(DoubtWatch, ADirectionThatIsOpenFromTheStartIsNoReasonAtOnce) {
+  Watched body(1e-6, 1e-6);
+  EXPECT_EQ(body.Add(kFlagDegenerate), 0U);
 }
 
 TEST(DoubtWatch, AWindowThatIsHeldBeginsTheTimeAnew) {
