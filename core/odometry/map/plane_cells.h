@@ -47,7 +47,7 @@ class PlaneCells {
     const bool is_mine =
         fitted_at != kClaimed &&
         kept.fitted_at.compare_exchange_strong(fitted_at, kClaimed, std::memory_order_relaxed);
-    const FittedPlane plane = fit();
+    FittedPlane plane = fit();
     if (is_mine) {
       kept.plane = plane;
       kept.fitted_at.store(points_around, std::memory_order_release);
