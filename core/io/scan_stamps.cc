@@ -137,6 +137,41 @@ std::vector<std::size_t> LinesOfScans(const ScanListing& listing, std::size_t st
   return lines;
 }
 
+/// Where the numbers in the names leave some out, scans are missing, and the stamps must leave out
+/// their time. Where they do not, a scan has another name than it had, such as 000012.pcd become
+/// 999000012.pcd, and all scans behind it have the stamps of others. Throws InputError then.
+void RequireTheSameGaps(const ScanListing& listing, const std::vector<std::int64_t>& t_ns,
+                        const fs::path& stamps_file) {
+  constexpr std::size_t kMostMissing = 10;  // Not where a name is a time of day.
+  std::vector<std::size_t> steps;
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < listing.files.size(); ++i) {
+    const auto index = IndexOfName(listing.files[i]);
+    if (!index) return;
+    if (i > 0) steps.push_back(*index - before);
+    before = *index;
+  }
+  if (steps.empty()) return;
+  std::vector<std::size_t> sorted = steps;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const std::size_t usual = std::max<std::size_t>(*middle, 1);
+  const double period_s = TypicalPeriod(t_ns);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::size_t missing = steps[i] / usual - 1;
+    const bool leaves_out = steps[i] % usual == 0 && missing >= 1 && missing <= kMostMissing;
+    const double step_s = 1e-9 * static_cast<double>(t_ns[i + 1] - t_ns[i]);
+    if (!leaves_out || step_s <= 0.0 || step_s > 1.5 * period_s) continue;
+    throw InputError(stamps_file,
+                     "it is not known which stamp is whose: between " +
+                         listing.files[i].filename().string() + " and " +
+                         listing.files[i + 1].filename().string() + " in " +
+                         listing.folder.string() + " a scan is missing, but no time is",
+                     "Give every scan the name that it had, or number them without a gap if each "
+                     "line of the stamps is that of the next file.");
+  }
+}
+
 template <typename Names>
 fs::path FindBeside(const fs::path& folder, const Names& names) {
   std::error_code ignored;
@@ -217,6 +252,7 @@ ScanStamps FindStamps(const fs::path& stamps_file, ScanListing* listing) {
   for (const std::size_t line : LinesOfScans(*listing, lines.size())) {
     stamps.t_ns.push_back(lines[line]);
   }
+  RequireTheSameGaps(*listing, stamps.t_ns, file);
   if (lines.size() > scans) {
     stamps.warnings.push_back(stamps.source + ": " + std::to_string(lines.size()) + " stamps for " +
                               std::to_string(scans) + " scans; scan " +
@@ -244,8 +280,9 @@ double TypicalPeriod(const std::vector<std::int64_t>& t_ns) {
     if (t_ns[i] > t_ns[i - 1]) steps.push_back(t_ns[i] - t_ns[i - 1]);
   }
   if (steps.empty()) return 0.0;
-  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
-  return 1e-9 * static_cast<double>(steps[steps.size() / 2]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return 1e-9 * static_cast<double>(*middle);
 }
 
 }  // namespace trajlo

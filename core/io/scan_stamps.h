@@ -28,8 +28,8 @@ std::vector<std::int64_t> ReadStampsFile(const std::filesystem::path& path);
 /// Finds the stamps of the listed scans in `stamps_file` if that is given, else in timestamps.txt
 /// or times.txt beside the scans or one level up, else in the file names (the listing is then
 /// sorted by them). With more stamps than scans, names that are whole numbers pick their line.
-/// Throws InputError if there are fewer stamps than scans, or if names of several patterns leave
-/// open which scan comes when.
+/// Throws InputError if there are fewer stamps than scans, or if the names leave open which scan
+/// comes when: they follow several patterns, or their numbers miss a scan where the stamps do not.
 ScanStamps FindStamps(const std::filesystem::path& stamps_file, ScanListing* listing);
 
 /// When each of the listed scans was recorded, which orders the scans of several LiDARs where

@@ -28,6 +28,7 @@ std::string RunSummary::OddStamps() const {
   add(times.reordered, "put in order");
   add(times.retimed, "given the time between their neighbours (wrong stamps)");
   add(times.assumed, "given an assumed time (the stamps stand still)");
+  add(times.moved, "moved with the clock, which had made a step");
   add(times.misfits, "dropped (their stamps fit nowhere)");
   add(times.repeated, "dropped (repeated)");
   add(times.stuck, "dropped (the points of a scan before with a new stamp: a driver that hangs)");
@@ -55,10 +56,14 @@ std::string RunSummary::MissingInput() const {
                     std::to_string(read.points_without_time) + " impossible)");
   }
   const auto scans = static_cast<double>(times.scans);
-  const std::int64_t assumed = times.assumed + times.retimed;
+  const std::int64_t assumed = times.assumed + times.retimed + times.moved;
   if (static_cast<double>(assumed) > kSizeableShare * scans) {
     parts.push_back("the times of " + std::to_string(assumed) + " of " +
-                    std::to_string(times.scans) + " scans are assumed");
+                    std::to_string(times.scans) + " scans are not those of their stamps");
+  }
+  if (static_cast<double>(times.odd_point_times) > kSizeableShare * scans) {
+    parts.push_back("of " + std::to_string(times.scans) +
+                    " scans some have one time for all points, the others have not");
   }
   if (static_cast<double>(times.stuck) > kSizeableShare * scans) {
     parts.push_back(std::to_string(times.stuck) + " of " + std::to_string(times.scans) +

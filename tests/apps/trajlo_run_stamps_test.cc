@@ -135,7 +135,7 @@ TEST_F(StampsTest, StampsThatAllRepeatOrAllGoBackAreThree) {
   Write(std::vector<std::int64_t>(kScans, 1000 * kSecond));
   const Outcome equal = RunAnew();
   EXPECT_EQ(equal.exit_code, 3) << equal.err;
-  EXPECT_THAT(equal.err, HasSubstr("the times of 23 of 24 scans are assumed"));
+  EXPECT_THAT(equal.err, HasSubstr("the times of 23 of 24 scans are not those of their stamps"));
   ExpectRight(0.1);
   WriteEdited([](auto* stamps) { std::reverse(stamps->begin(), stamps->end()); });
   const Outcome reversed = RunAnew();

@@ -16,8 +16,7 @@ constexpr double kToExtendMap = 0.5;
 /// And so many before the place is trusted: nine of ten are where the map has grown at the right
 /// place. Where it has grown at a wrong one, much of what is seen next is not on it.
 constexpr double kToTrust = 0.75;
-/// Of the usual agreement: most windows have it at the right place; wrong places have 0.6 to 0.9
-/// (simulated rooms).
+/// Of the usual agreement: nearly all windows at the right place have so much.
 constexpr double kAsUsual = 0.95;
 /// The usual is a mean over about so many windows.
 constexpr double kWindows = 20.0;

@@ -7,14 +7,13 @@
 namespace trajlo {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 /// Scans that must go on from each other before a pause is believed, or a step of the clock.
 constexpr std::size_t kConfirmPause = 3;
 constexpr std::size_t kConfirmStep = 5;
 /// A scan that more of those behind it overtake did not come early: its stamp is wrong.
 constexpr int kMostOvertaken = 2;
-/// A longer jump ahead is a step of the clock, if nothing else tells.
-constexpr std::int64_t kLongestPause_ns = 60 * kSecond;
+/// So few may come at one time.
+constexpr std::size_t kFewPoints = 10;
 
 void ExchangeTimes(HeldScan* a, HeldScan* b) {
   const std::int64_t to_b_ns = Difference(b->times.begin_ns, a->times.begin_ns);
@@ -30,9 +29,11 @@ void ExchangeTimes(HeldScan* a, HeldScan* b) {
 
 }  // namespace
 
-void LidarTrack::NoteArrival(const ScanTimes& times, std::int64_t arrival) {
+void LidarTrack::NoteArrival(const LidarScan& scan, const ScanTimes& times, std::int64_t arrival) {
   newest_ns_ = times.begin_ns;
   newest_arrival_ = arrival;
+  if (!scan.has_point_times || scan.points.size() < kFewPoints) return;
+  ++(times.begin_ns == times.end_ns ? with_one_time_ : with_several_times_);
 }
 
 bool LidarTrack::GoesOn(const LidarScan& scan, const ScanTimes& times) const {
@@ -215,7 +216,7 @@ void LidarTrack::TakeBackStep(std::size_t anchor, const Others& others) {
     const bool goes_on = Sum(held.times.begin_ns, known) > last.begin_ns;
     if (goes_on && Distance(known, offset_ns) <= period_ns / 2) offset_ns = known;
   }
-  step_ = Step{held.times.begin_ns, Difference(clock_.offset_ns(), offset_ns)};
+  step_ = Step{held.times.begin_ns, Difference(clock_.offset_ns(), offset_ns), offset_ns == 0};
   clock_.set_offset_ns(offset_ns);
 }
 

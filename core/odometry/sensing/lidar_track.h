@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -70,11 +71,13 @@ class LidarTrack {
     std::int64_t at_ns;
     /// Positive if the clock jumped ahead.
     std::int64_t length_ns;
+    /// The times behind it are as they were recorded.
+    bool is_true_behind;
   };
 
   const LidarClock& clock() const { return clock_; }
   /// Notes that a scan came, whatever will become of it.
-  void NoteArrival(const ScanTimes& times, std::int64_t arrival);
+  void NoteArrival(const LidarScan& scan, const ScanTimes& times, std::int64_t arrival);
   /// Of the scan that came last, as it was recorded.
   std::int64_t newest_ns() const { return newest_ns_; }
 
@@ -106,6 +109,8 @@ class LidarTrack {
   /// Motion-corrected scans that, by their views, have each other's points, in spite of stamps that
   /// go on.
   std::int64_t exchanged() const { return exchanged_; }
+  /// Scans whose points have all one time, or those whose points do not: the fewer ones.
+  std::int64_t odd_point_times() const { return std::min(with_one_time_, with_several_times_); }
   std::optional<Apart> TakeApart() { return std::exchange(apart_, std::nullopt); }
   /// Where the first scan that was handed on lies.
   std::int64_t first_ns() const { return first_ns_; }
@@ -113,6 +118,8 @@ class LidarTrack {
  private:
   /// While so many are held, the oldest waits for more.
   static constexpr std::size_t kMostHeld = 8;
+  /// A longer jump ahead is a step of the clock, if nothing else tells.
+  static constexpr std::int64_t kLongestPause_ns = 60'000'000'000;
 
   void NoteAt(const ScanPlace& place, const LidarScan& scan, const ScanTimes& times);
   ScanPlace PlaceOf(const HeldScan& held) const { return clock_.PlaceOf(held.scan, held.times); }
@@ -132,6 +139,7 @@ class LidarTrack {
   bool Start(const Others& others, bool is_final);
   std::vector<std::int64_t> EvenPace() const;
   bool FindOffset(const Others& others);
+  bool SetBackForAStep(std::size_t first);
   std::size_t FirstOfChain() const;
   bool HandOnNext();
   bool GoOnFromAnchor(const Others& others, bool is_final);
@@ -158,6 +166,8 @@ class LidarTrack {
   ScanMemory memory_;
   std::deque<ScanView> views_;  ///< Of the last three scans that were handed on.
   std::int64_t exchanged_ = 0;
+  std::int64_t with_one_time_ = 0;
+  std::int64_t with_several_times_ = 0;
   std::vector<Judgement> judgements_;
   std::optional<Step> step_;
   std::optional<Apart> apart_;

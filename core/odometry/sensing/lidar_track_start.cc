@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kHeldAtStart = 5;
 /// ... but where no three of them come at an even pace, so many are awaited.
 constexpr std::size_t kMostHeldAtStart = 12;
+/// So many go on from each other behind a step of the clock.
+constexpr std::size_t kBehindStep = 5;
 
 }  // namespace
 
@@ -41,6 +43,7 @@ bool LidarTrack::Start(const Others& others, bool is_final) {
     }
     first = 0;
   }
+  if (others.reference == nullptr && !is_final && !SetBackForAStep(first)) return false;
   HandOn(held_[first], ScanFate::kHandedOn, PlaceOf(*held_[first]));
   return true;
 }
@@ -76,6 +79,20 @@ bool LidarTrack::FindOffset(const Others& others) {
     return false;
   }
   clock_.set_offset_ns(is_same_clock ? reference.offset_ns() : 0);
+  return true;
+}
+
+/// Where the clock was set behind the first few scans, theirs is the wrong time: they are moved to
+/// lie before the others. False if that is not known yet.
+bool LidarTrack::SetBackForAStep(std::size_t first) {
+  const std::size_t step = first + ChainLength(first);
+  if (step >= held_.size()) return true;
+  const HeldScan& before = *held_[step - 1];
+  const std::int64_t ahead_ns = Difference(held_[step]->times.begin_ns, before.times.begin_ns);
+  const bool is_late = ahead_ns <= 0 && ahead_ns >= -clock_.longest_step_ns();
+  if (is_late || (ahead_ns > 0 && ahead_ns <= kLongestPause_ns)) return true;
+  if (ChainLength(step) < kBehindStep) return held_.size() >= kMostHeldAtStart;
+  clock_.set_offset_ns(Difference(ahead_ns, clock_.period_ns()));
   return true;
 }
 

@@ -27,7 +27,10 @@ bool IsDropped(ScanFate fate) {
   return fate == ScanFate::kMisfit || fate == ScanFate::kRepeated || fate == ScanFate::kApart;
 }
 
-void Count(ScanFate fate, TimeReport* report) {
+void Count(const Judgement& judgement, TimeReport* report) {
+  const ScanFate fate = judgement.fate;
+  const bool is_as_recorded = fate == ScanFate::kHandedOn || fate == ScanFate::kReordered;
+  report->moved += is_as_recorded && judgement.shift_ns != 0 ? 1 : 0;
   report->reordered += fate == ScanFate::kReordered ? 1 : 0;
   report->retimed += fate == ScanFate::kRetimed ? 1 : 0;
   report->assumed += fate == ScanFate::kAssumed ? 1 : 0;
@@ -59,7 +62,7 @@ void ScanSequencer::Add(const LidarScan& scan) {
     report_.points += static_cast<std::int64_t>(scan.points.size());
     return;
   }
-  track.NoteArrival(*times, arrival);
+  track.NoteArrival(scan, *times, arrival);
   if (track.IsStuck(scan, *times)) {
     ++report_.stuck;
     report_.points += static_cast<std::int64_t>(scan.points.size());
@@ -89,7 +92,10 @@ void ScanSequencer::Finish() {
     Judge(static_cast<std::size_t>(queue_.front()->held.scan.lidar_id), true);
   }
   CompareSpans();
-  for (const LidarTrack& track : tracks_) report_.exchanged += track.exchanged();
+  for (const LidarTrack& track : tracks_) {
+    report_.exchanged += track.exchanged();
+    report_.odd_point_times += track.odd_point_times();
+  }
 }
 
 void ScanSequencer::Judge(std::size_t lidar, bool is_final) {
@@ -113,7 +119,7 @@ void ScanSequencer::Apply(const Judgement& judgement) {
   const auto entry = std::find_if(queue_.begin(), queue_.end(), [&](const auto& other) {
     return &other->held == judgement.held;
   });
-  Count(judgement.fate, &report_);
+  Count(judgement, &report_);
   if (IsDropped(judgement.fate)) {
     report_.points += static_cast<std::int64_t>(judgement.held->scan.points.size());
     queue_.erase(entry);
@@ -148,7 +154,9 @@ void ScanSequencer::Describe(std::size_t lidar) {
     const bool is_ahead = step->length_ns > 0;
     Remark(LidarName(lidar) + ": its clock steps " + (is_ahead ? "ahead" : "back") + " by " +
            Seconds(is_ahead ? step->length_ns : -step->length_ns) + ", to " + Seconds(step->at_ns) +
-           "; the times from there on are moved so that they go on from those before");
+           (step->is_true_behind ? "; the times before were moved so that these go on from them"
+                                 : "; the times from there on are moved so that they go on from "
+                                   "those before"));
   }
   const auto apart = tracks_[lidar].TakeApart();
   if (!apart || is_apart_[lidar]) return;

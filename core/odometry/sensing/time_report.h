@@ -15,6 +15,7 @@ struct TimeReport {
   std::int64_t reordered = 0;  ///< Before scans that came earlier.
   std::int64_t retimed = 0;    ///< At the free place between their neighbours.
   std::int64_t assumed = 0;    ///< A period after the scan before, as the stamps stand still.
+  std::int64_t moved = 0;      ///< With the clock, which had made a step.
   // Dropped.
   std::int64_t misfits = 0;   ///< The stamp fits nowhere.
   std::int64_t repeated = 0;  ///< The place of the stamp is taken.
@@ -23,6 +24,7 @@ struct TimeReport {
 
   std::int64_t clock_steps = 0;  ///< Lasting ones: the later times are moved to go on.
   std::int64_t points = 0;       ///< Of the dropped scans, and those far from their scan's time.
+  std::int64_t odd_point_times = 0;  ///< Scans with one time for all points where others have more.
   std::int64_t exchanged = 0;  ///< Of scans that were handed on: seem to have each other's points.
   std::int64_t until_last_point = 0;  ///< Scans up to the last one with a point of use.
 

@@ -165,6 +165,29 @@ TEST_F(StampSearch, NamesOfSeveralPatternsLeaveOpenWhichStampIsWhose) {
   EXPECT_THAT(Find().t_ns, ElementsAre(5 * kSecond, 6 * kSecond, 7 * kSecond, 8 * kSecond));
 }
 
+TEST_F(StampSearch, AScanThatIsMissingByItsNumberIsMissingByItsStamp) {
+  const auto find = [&](const std::vector<const char*>& names, const char* stamps) {
+    for (const char* name : names) folder_.Write(name, "");
+    folder_.Write("times.txt", stamps);
+    const ScanStamps found = Find();
+    for (const char* name : names) std::filesystem::remove(folder_.path() / name);
+    return found.t_ns.size();
+  };
+  // One was lost before the stamps were written, and every second one left out.
+  EXPECT_EQ(find({"00.bin", "01.bin", "03.bin", "04.bin"}, "5.0\n5.1\n5.3\n5.4\n"), 4U);
+  EXPECT_EQ(find({"00.bin", "02.bin", "04.bin", "06.bin"}, "5.0\n5.1\n5.2\n5.3\n"), 4U);
+  // The names are times of day.
+  EXPECT_EQ(find({"125959800.bin", "125959900.bin", "130000000.bin", "130000100.bin"},
+                 "5.0\n5.1\n5.2\n5.3\n"),
+            4U);
+  try {
+    find({"00.bin", "01.bin", "03.bin", "04.bin", "9902.bin"}, "5.0\n5.1\n5.2\n5.3\n5.4\n");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("between 01.bin and 03.bin"));
+  }
+}
+
 TEST_F(StampSearch, TimesOfRecordingAreFoundInTheSameWay) {
   for (const char* name : {"scans/0.pcd", "scans/2.pcd"}) folder_.Write(name, "");
   const ScanListing listing = ListScans(folder_.path());

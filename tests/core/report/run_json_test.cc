@@ -87,8 +87,15 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
       "11 impossible)");
   s.points = {};
   s.times.assumed = 4;
-  EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are assumed");
+  EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are not those of their stamps");
   s.times.assumed = 0;
+  s.times.moved = 4;
+  EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are not those of their stamps");
+  s.times.moved = 0;
+  s.times.odd_point_times = 6;
+  EXPECT_EQ(s.MissingInput(),
+            "of 100 scans some have one time for all points, the others have not");
+  s.times.odd_point_times = 5;
   s.times.exchanged = 6;
   EXPECT_EQ(s.MissingInput(), "6 of 100 scans seem to be out of order, by what they show");
   s.times.exchanged = 5;

@@ -103,9 +103,9 @@ void ExpectSame(const std::vector<LidarScan>& a, const std::vector<LidarScan>& b
 }
 
 void ExpectNothingDone(const TimeReport& report) {
-  EXPECT_EQ(
-      report.reordered + report.retimed + report.assumed + report.Dropped() + report.clock_steps,
-      0);
+  EXPECT_EQ(report.reordered + report.retimed + report.assumed + report.moved + report.Dropped() +
+                report.clock_steps + report.odd_point_times,
+            0);
   EXPECT_EQ(report.points, 0);
   EXPECT_THAT(report.remarks, IsEmpty());
 }
@@ -208,6 +208,7 @@ TEST(ScanSequencer, FollowsAStepOfTheClockThatLasts) {
       EXPECT_EQ(result.scans.size(), 40u) << step << " at " << at;
       EXPECT_EQ(result.LargestError(), 0) << step << " at " << at;
       EXPECT_EQ(result.report.clock_steps, 1);
+      EXPECT_EQ(result.report.moved, 40 - at);
       ASSERT_THAT(result.report.remarks, SizeIs(1));
       EXPECT_THAT(result.report.remarks[0],
                   AllOf(HasSubstr("lidar 0"), HasSubstr(step > 0 ? "steps ahead" : "steps back")));
@@ -226,6 +227,55 @@ TEST(ScanSequencer, AClockThatStepsBackToWhereItWasIsExactlyThere) {
     EXPECT_EQ(result.report.clock_steps, 2) << step;
     for (std::size_t i = 40; i < 60; ++i) EXPECT_EQ(result.scans[i].stamp_ns, stamps[i]) << step;
   }
+}
+
+TEST(ScanSequencer, FirstScansFromBeforeTheClockWasSetLieBeforeTheOthers) {
+  for (const int count : {2, 3, 4}) {
+    for (const std::int64_t step : {kStart, kDay, -kHour, -2 * kSecond}) {
+      std::vector<std::int64_t> stamps = Regular(40);
+      for (int i = 0; i < count; ++i) stamps[static_cast<std::size_t>(i)] -= step;
+      const Result result = SequenceStamps(stamps);
+      EXPECT_EQ(result.scans.size(), 40u) << count << " by " << step;
+      EXPECT_EQ(result.LargestError(), 0) << count << " by " << step;
+      EXPECT_EQ(result.report.moved, count);
+      ASSERT_THAT(result.report.remarks, SizeIs(1));
+      EXPECT_THAT(result.report.remarks[0], HasSubstr("the times before were moved"));
+    }
+  }
+}
+
+TEST(ScanSequencer, APauseAmongTheFirstScansIsStillAPause) {
+  for (const std::int64_t pause : {kSecond, 50 * kSecond}) {
+    std::vector<std::int64_t> stamps = Regular(40);
+    for (std::size_t i = 3; i < 40; ++i) stamps[i] += pause;
+    const Result result = SequenceStamps(stamps);
+    ASSERT_EQ(result.scans.size(), 40u);
+    for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(result.scans[i].stamp_ns, stamps[i]) << i;
+    ExpectNothingDone(result.report);
+  }
+}
+
+TEST(ScanSequencer, SwappedScansAmongTheFirstAreNoStepOfTheClock) {
+  std::vector<LidarScan> scans = WithStamps(Regular(40));
+  std::swap(scans[1], scans[2]);
+  const Result result = Sequence(scans);
+  EXPECT_EQ(result.LargestError(), 0);
+  EXPECT_EQ(result.report.moved + result.report.clock_steps, 0);
+}
+
+TEST(ScanSequencer, CountsScansWhosePointsHaveOneTimeWhereThoseOfOthersHaveMore) {
+  const auto count = [](int first, int last) {
+    std::vector<LidarScan> scans = WithStamps(Regular(40));
+    for (int i = first; i < last; ++i) {
+      LidarScan& scan = scans[static_cast<std::size_t>(i)];
+      for (LidarPoint& point : scan.points) point.t_ns = scan.stamp_ns;
+    }
+    return Sequence(scans).report.odd_point_times;
+  };
+  EXPECT_EQ(count(0, 0), 0);
+  EXPECT_EQ(count(10, 17), 7);
+  EXPECT_EQ(count(2, 36), 6);  // It is not known which are wrong.
+  EXPECT_EQ(count(0, 40), 0);  // A sensor that sees all at once.
 }
 
 TEST(ScanSequencer, APauseAfterAStepOfTheClockIsStillAPause) {
