@@ -128,7 +128,8 @@ void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane*
                                                  : query.plane.normal_variance_rad2;
     const double relative = query.plane.thickness_m / PlaneFitOptions::kHalfWeightThickness_m;
     plane.coarseness = query.is_wide ? 1.0 : plane.scale;
-    plane.weight = 1.0 / ((1.0 + relative * relative) * std::pow(plane.coarseness, 4));
+    const double squared = plane.coarseness * plane.coarseness;
+    plane.weight = 1.0 / ((1.0 + relative * relative) * squared * squared);
   }
 }
 

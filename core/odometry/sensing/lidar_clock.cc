@@ -51,6 +51,13 @@ std::optional<bool> LidarClock::DoRecordTimesAgree(const LidarScan& scan,
   return change_ns <= kDelayTolerance_ns && change_ns >= -kDelayTolerance_ns;
 }
 
+std::optional<std::int64_t> LidarClock::Drift() const {
+  if (copies_stamps_ || first_delays_ns_.size() < kRemembered) return std::nullopt;
+  std::vector<std::int64_t> last_delays_ns;
+  for (const Recorded& recorded : recorded_) last_delays_ns.push_back(recorded.delay_ns);
+  return Difference(*LowerMedian(last_delays_ns), *LowerMedian(first_delays_ns_));
+}
+
 void LidarClock::GuessPeriod(std::vector<std::int64_t> begins_ns,
                              const std::vector<std::int64_t>& spans_ns) {
   // In order, so that scans that were swapped do not hide it; one wrong stamp adds one wrong step.
@@ -75,6 +82,8 @@ void LidarClock::Note(const LidarScan& scan, const ScanPlace& place) {
   if (scan.recorded_ns) {
     recorded_.push_back({place.begin_ns, Difference(*scan.recorded_ns, place.begin_ns)});
     if (recorded_.size() > kRemembered) recorded_.pop_front();
+    const std::int64_t delay_ns = recorded_.back().delay_ns;
+    if (first_delays_ns_.size() < kRemembered) first_delays_ns_.push_back(delay_ns);
     const std::int64_t after_stamp_ns = Difference(*scan.recorded_ns, scan.stamp_ns);
     const bool is_copy = after_stamp_ns <= kCopy_ns && after_stamp_ns >= -kCopy_ns;
     copies_stamps_ = copies_stamps_ && is_copy;

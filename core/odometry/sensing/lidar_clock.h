@@ -44,6 +44,10 @@ class LidarClock {
   /// tell.
   std::optional<bool> DoRecordTimesAgree(const LidarScan& scan, const ScanPlace& place) const;
 
+  /// By how much the times of recording run ahead of those of the LiDAR, from its first scans to
+  /// its last: empty if they cannot tell.
+  std::optional<std::int64_t> Drift() const;
+
   /// Before the first scan is noted: the period that these scans suggest.
   void GuessPeriod(std::vector<std::int64_t> begins_ns, const std::vector<std::int64_t>& spans_ns);
   void set_offset_ns(std::int64_t offset_ns) { offset_ns_ = offset_ns; }
@@ -61,6 +65,7 @@ class LidarClock {
     std::int64_t delay_ns;  ///< From the begin to the recording.
   };
   std::deque<Recorded> recorded_;
+  std::vector<std::int64_t> first_delays_ns_;
   bool copies_stamps_ = true;  ///< So do all times of recording so far.
 };
 

@@ -16,6 +16,8 @@ constexpr std::size_t kMostQueued = 16;
 constexpr std::size_t kMostRemarks = 20;
 /// LiDARs of one recording begin and end within so much, or not at the same distance.
 constexpr std::int64_t kSmallShift_ns = 1'000'000'000;
+/// A walker moves by three centimetres in so much time.
+constexpr std::int64_t kLargeDrift_ns = 20'000'000;
 
 std::string Seconds(std::int64_t ns) {
   char text[40];
@@ -92,6 +94,7 @@ void ScanSequencer::Finish() {
     Judge(static_cast<std::size_t>(queue_.front()->held.scan.lidar_id), true);
   }
   CompareSpans();
+  CompareDrifts();
   for (const LidarTrack& track : tracks_) {
     report_.exchanged += track.exchanged();
     report_.odd_point_times += track.odd_point_times();
@@ -192,6 +195,20 @@ void ScanSequencer::CompareSpans() {
            " and ends " + Seconds(end_ns) +
            " after it: if both recorded at the same time, their clocks differ, and "
            "input.clock_offset_s of one must be set");
+  }
+}
+
+/// LiDARs that are not synchronised run apart, which the times of recording show.
+void ScanSequencer::CompareDrifts() {
+  if (tracks_.empty()) return;
+  const auto first_ns = tracks_[first_lidar_].clock().Drift();
+  for (std::size_t i = 0; first_ns && i < tracks_.size(); ++i) {
+    const auto drift_ns = tracks_[i].clock().Drift();
+    if (!drift_ns || Distance(*drift_ns, *first_ns) < kLargeDrift_ns) continue;
+    report_.clocks_may_differ = true;
+    Remark(LidarName(i) + ": by the times of recording, its clock and that of " +
+           LidarName(first_lidar_) + " run apart, by " + Seconds(Distance(*drift_ns, *first_ns)) +
+           " in this recording: the LiDARs must be synchronised");
   }
 }
 

@@ -54,6 +54,7 @@ class ScanSequencer {
   void Release();
   void Describe(std::size_t lidar);
   void CompareSpans();
+  void CompareDrifts();
   void Remark(const std::string& sentence);
   void Hand(const LidarScan& scan, std::int64_t arrival);
 

@@ -28,7 +28,7 @@ struct TimeReport {
   std::int64_t exchanged = 0;  ///< Of scans that were handed on: seem to have each other's points.
   std::int64_t until_last_point = 0;  ///< Scans up to the last one with a point of use.
 
-  /// One LiDAR begins later than another, and ends as much later.
+  /// One LiDAR begins later than another, and ends as much later; or their clocks run apart.
   bool clocks_may_differ = false;
 
   /// What a user should know, a sentence each.

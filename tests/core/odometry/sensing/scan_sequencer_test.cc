@@ -505,6 +505,24 @@ TEST(ScanSequencer, ALidarThatBeginsAndEndsLaterThanTheFirstRaisesADoubt) {
   }
 }
 
+TEST(ScanSequencer, LidarsThatAreNotSynchronisedRaiseADoubt) {
+  for (const double drift : {0.0, 0.003, 0.01, -0.01}) {
+    std::vector<LidarScan> scans = Rig(0);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      LidarScan& scan = scans[i];
+      const std::int64_t late_ns = (i % 5 == 0 ? 9 : 1) * kMs;
+      scan.recorded_ns = scan.stamp_ns + 100 * kMs + late_ns;
+      if (scan.lidar_id == 0) continue;
+      ShiftTimes(std::llround(drift * static_cast<double>(scan.stamp_ns - kStart)), &scan);
+    }
+    const bool is_doubtful = std::abs(drift) > 0.005;  // 24 ms between the medians
+    const TimeReport report = Sequence(scans).report;
+    EXPECT_EQ(report.clocks_may_differ, is_doubtful) << drift;
+    if (!is_doubtful) continue;
+    EXPECT_THAT(report.remarks[0], AllOf(HasSubstr("lidar 1"), HasSubstr("run apart, by 0.02")));
+  }
+}
+
 TEST(ScanSequencer, TakesALidarInWhenItsClockWasSet) {
   std::vector<LidarScan> scans = Rig(0);
   int left_out = 0;
