@@ -10,6 +10,7 @@
 #include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/enter_map.h"
+#include "core/odometry/window/fit_kernel.h"
 #include "core/odometry/window/graduated_kernel.h"
 #include "core/odometry/window/push_segment.h"
 
@@ -108,7 +109,7 @@ void Odometry::FindFirstVelocity(const SegmentCloud& cloud) {
 void Odometry::Step(SegmentCloud cloud) {
   PushSegment(std::move(cloud), options_.window.deskewing, &window_);
   motion_prior_.Apply(&window_);
-  window_.noise = MakeRegistrationNoise(options_.registration);
+  if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
   const std::vector<SE3> predicted = window_.Poses();
 
   WindowStatistics statistics;
@@ -137,11 +138,12 @@ void Odometry::Step(SegmentCloud cloud) {
 
 /// Until the step is small: which planes the points belong to, and the poses that bring them there.
 void Odometry::AssociateAndSolve(WindowStatistics* s) {
-  GraduatedKernel kernel(window_);
+  GraduatedKernel kernel(window_, options_.registration.kernel_m);
   Segment* newest = &window_.segments.back();
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
     s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, &window_);
+    if (s->rounds == 0) FitKernel(options_.registration, &window_);
     s->milliseconds_associate += watch.Milliseconds();
     const bool is_widened = kernel.Widen(newest);
     s->Add(solver_->Solve(&window_), options_.solver);

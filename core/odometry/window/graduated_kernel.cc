@@ -20,9 +20,8 @@ constexpr std::size_t kAsked = 128;
 
 }  // namespace
 
-GraduatedKernel::GraduatedKernel(const Window& window) : reach_(Matrix6d::Zero()) {
+GraduatedKernel::GraduatedKernel(const Window& window, double kernel_m) : reach_(Matrix6d::Zero()) {
   if (window.noise.kernel.kind == KernelKind::kNone) return;
-  const double kernel_m = window.noise.kernel.width * window.noise.sigma_m;
   const Matrix6d covariance = PoseCovariance(AssembleWindow(window), window.size());
   if (!covariance.allFinite()) return;
   reach_ = kStandardDeviations * kStandardDeviations / (kernel_m * kernel_m) * covariance;

@@ -26,8 +26,9 @@ namespace trajlo {
 /// Non-Convexity for Robust Spatial Perception, RA-L 2020.
 class GraduatedKernel {
  public:
-  /// Before the newest segment of `window` is associated for the first time.
-  explicit GraduatedKernel(const Window& window);
+  /// Before the newest segment of `window` is associated for the first time. A prediction that is
+  /// off by less than `kernel_m` is good.
+  GraduatedKernel(const Window& window, double kernel_m);
 
   /// Widens the kernels of the newest segment's points for one round; false if most need it
   /// no more.

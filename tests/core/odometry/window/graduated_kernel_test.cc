@@ -61,7 +61,7 @@ void Estimate(const MapPyramid& map, bool is_graduated, Window* window) {
   ThreadPool threads(1);
   const SolverOptions options;
   const auto solver = MakeWindowSolver(options, &threads);
-  GraduatedKernel kernel(*window);
+  GraduatedKernel kernel(*window, kKernel_m);
   Segment* newest = &window->segments.back();
   for (int round = 0; round < 12; ++round) {
     AssociateWindow(map, options.step_tolerance, &threads, window);
@@ -95,7 +95,7 @@ TEST(GraduatedKernel, WidensEachKernelByHowFarThePredictionMayBeOffThere) {
   testing::Random random(3);
   Window window = OneSegment(SE3(), SE3(), 0.3, 0.1, &random);
   const Matrix6d P = PoseCovariance(AssembleWindow(window), 1);
-  GraduatedKernel kernel(window);
+  GraduatedKernel kernel(window, kKernel_m);
   ThreadPool threads(1);
   AssociateWindow(map, {}, &threads, &window);
   Segment& newest = window.segments[0];
@@ -125,7 +125,7 @@ TEST(GraduatedKernel, LeavesAGoodPredictionAlone) {
   const MapPyramid map = BoxMap();
   testing::Random random(4);
   Window window = OneSegment(SE3(), SE3(), 0.01, 0.001, &random);
-  GraduatedKernel kernel(window);
+  GraduatedKernel kernel(window, kKernel_m);
   ThreadPool threads(1);
   AssociateWindow(map, {}, &threads, &window);
   EXPECT_FALSE(kernel.Widen(&window.segments[0]));
@@ -135,7 +135,7 @@ TEST(GraduatedKernel, EndsAfterAFewRounds) {
   const MapPyramid map = BoxMap();
   testing::Random random(5);
   Window window = OneSegment(SE3(), SE3(), 2.0, 0.5, &random);
-  GraduatedKernel kernel(window);
+  GraduatedKernel kernel(window, kKernel_m);
   ThreadPool threads(1);
   AssociateWindow(map, {}, &threads, &window);
   int rounds = 0;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/window/fit_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "manifolds/se3_interpolation.h"
+
+namespace trajlo {
+namespace {
+
+/// Fewer points have no spread.
+constexpr std::size_t kFewest = 20;
+/// Of each segment about so many are asked.
+constexpr std::size_t kAsked = 128;
+/// Of normally distributed values: their standard deviation in medians of their sizes.
+constexpr double kSigmaOfMedian = 1.4826;
+/// A smaller change is not worth a new linearisation of all segments.
+constexpr double kSmallChange = 0.05;
+
+std::vector<double> SampleDistances(const Window& window) {
+  std::vector<double> sampled_m;
+  for (int k = 0; k < window.size(); ++k) {
+    const Segment& segment = window.segments[static_cast<std::size_t>(k)];
+    const SegmentMotion motion(window.Pose(k), segment.T_world_end);
+    const std::size_t stride = 1 + segment.points.size() / kAsked;
+    for (std::size_t i = 0; i < segment.points.size(); i += stride) {
+      const RegistrationPoint& point = segment.points[i];
+      const double distance_m = point.DistanceToPlane(motion.ToWorld(point.alpha, point.p_body_m));
+      sampled_m.push_back(std::sqrt(point.weight) * std::abs(distance_m));
+    }
+  }
+  return sampled_m;
+}
+
+}  // namespace
+
+void FitKernel(const RegistrationOptions& options, Window* window) {
+  if (options.kernel_in_spreads == 0.0) return;
+  std::vector<double> sampled_m = SampleDistances(*window);
+  if (sampled_m.size() < kFewest) return;
+  const auto median = sampled_m.begin() + static_cast<std::ptrdiff_t>(sampled_m.size() / 2);
+  std::nth_element(sampled_m.begin(), median, sampled_m.end());
+  const double spread_m = kSigmaOfMedian * *median;
+  const double width_m =
+      std::min(std::max(options.kernel_in_spreads * spread_m, options.sigma_m), options.kernel_m);
+  double& width = window->noise.kernel.width;
+  const double change = width_m / window->noise.sigma_m - width;
+  if (std::abs(change) <= kSmallChange * width) return;
+  width += change;
+  for (Segment& segment : window->segments) segment.linearization.reset();
+}
+
+}  // namespace trajlo
