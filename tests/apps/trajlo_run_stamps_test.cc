@@ -108,7 +108,8 @@ TEST_F(StampsTest, AClockThatStepsIsFollowed) {
       for (std::size_t i = 10; i < stamps->size(); ++i) (*stamps)[i] += step;
     });
     const Outcome outcome = RunAnew();
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("14 of 24 scans are not those of their stamps"));
     EXPECT_THAT(outcome.err, HasSubstr(step > 0 ? "lidar 0: its clock steps ahead by 3600.000 s"
                                                 : "lidar 0: its clock steps back by "));
     EXPECT_EQ(RunJson()["input"]["clock_steps"], 1);
