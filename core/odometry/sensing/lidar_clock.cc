@@ -54,7 +54,7 @@ std::optional<bool> LidarClock::DoRecordTimesAgree(const LidarScan& scan,
 std::optional<std::int64_t> LidarClock::Drift() const {
   if (copies_stamps_ || first_delays_ns_.size() < kRemembered) return std::nullopt;
   std::vector<std::int64_t> last_delays_ns;
-  for (const Recorded& recorded : recorded_) last_delays_ns.push_back(recorded.delay_ns);
+  for (const Recorded& recorded : recorded_) last_delays_ns.push_back(recorded.stamp_delay_ns);
   return Difference(*LowerMedian(last_delays_ns), *LowerMedian(first_delays_ns_));
 }
 
@@ -80,10 +80,11 @@ void LidarClock::Note(const LidarScan& scan, const ScanPlace& place) {
     if (steps_ns_.size() >= kStepsForPeriod) period_ns_ = *steps_ns_.Value();
   }
   if (scan.recorded_ns) {
-    recorded_.push_back({place.begin_ns, Difference(*scan.recorded_ns, place.begin_ns)});
+    const std::int64_t stamp_delay_ns = Difference(*scan.recorded_ns, place.stamp_ns);
+    recorded_.push_back(
+        {place.begin_ns, Difference(*scan.recorded_ns, place.begin_ns), stamp_delay_ns});
     if (recorded_.size() > kRemembered) recorded_.pop_front();
-    const std::int64_t delay_ns = recorded_.back().delay_ns;
-    if (first_delays_ns_.size() < kRemembered) first_delays_ns_.push_back(delay_ns);
+    if (first_delays_ns_.size() < kRemembered) first_delays_ns_.push_back(stamp_delay_ns);
     const std::int64_t after_stamp_ns = Difference(*scan.recorded_ns, scan.stamp_ns);
     const bool is_copy = after_stamp_ns <= kCopy_ns && after_stamp_ns >= -kCopy_ns;
     copies_stamps_ = copies_stamps_ && is_copy;

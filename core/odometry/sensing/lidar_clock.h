@@ -62,7 +62,8 @@ class LidarClock {
   /// Of the last scans, with the times of their recording.
   struct Recorded {
     std::int64_t begin_ns;
-    std::int64_t delay_ns;  ///< From the begin to the recording.
+    std::int64_t delay_ns;        ///< From the begin to the recording.
+    std::int64_t stamp_delay_ns;  ///< From the stamp, which is there when the first points are not.
   };
   std::deque<Recorded> recorded_;
   std::vector<std::int64_t> first_delays_ns_;
