@@ -54,7 +54,8 @@ struct Judgement {
 ///   - they go on from the scan before it: its stamp is wrong. It gets the free place between its
 ///     neighbours if there is one for each such scan, and is dropped otherwise, as is a scan that
 ///     was handed on before.
-/// So times that increase by steps below a minute are only changed where views tell of a step.
+/// So times that increase by steps below a minute are only changed where views tell of a step. If
+/// the clock was set behind the first few scans, it is these that are moved.
 class LidarTrack {
  public:
   /// What the other LiDARs tell.

@@ -22,7 +22,7 @@ struct TimeReport {
   std::int64_t stuck = 0;     ///< The points are those of a scan before, the stamp is new.
   std::int64_t apart = 0;     ///< Of a LiDAR whose clock does not meet that of the first.
 
-  std::int64_t clock_steps = 0;  ///< Lasting ones: the later times are moved to go on.
+  std::int64_t clock_steps = 0;  ///< Lasting ones: the times on one side are moved.
   std::int64_t points = 0;       ///< Of the dropped scans, and those far from their scan's time.
   std::int64_t odd_point_times = 0;  ///< Scans with one time for all points where others have more.
   std::int64_t exchanged = 0;  ///< Of scans that were handed on: seem to have each other's points.
