@@ -31,6 +31,10 @@ bool LidarClock::IsPeriod(std::int64_t step_ns) const {
   return period_ns_ > 0 && step_ns >= period_ns_ / 2 && step_ns <= period_ns_ + period_ns_ / 2;
 }
 
+bool LidarClock::IsRoughlyPeriod(std::int64_t step_ns) const {
+  return 2 * Distance(step_ns, period_ns_) <= 3 * period_ns_;
+}
+
 bool LidarClock::IsNext(std::int64_t begin_ns) const {
   return IsPeriod(Difference(begin_ns, last_->begin_ns));
 }

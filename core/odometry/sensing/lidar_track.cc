@@ -177,14 +177,12 @@ std::size_t LidarTrack::FindAnchor(const Others& others, bool is_final) const {
     is_other_clock = Ahead(*held_[i]) > 0;
   }
   if (!is_final) return held_.size();
-  // Of the last scans, whichever comes next after a few lost ones.
-  std::size_t next = held_.size();
-  for (std::size_t i = 0; i < held_.size(); ++i) {
-    const std::int64_t ahead_ns = Ahead(*held_[i]);
-    if (ahead_ns <= 0 || ahead_ns > clock_.longest_step_ns()) continue;
-    if (next == held_.size() || ahead_ns < Ahead(*held_[next])) next = i;
-  }
-  return next;
+  // The last scan may come a little late, but behind a pause its stamp may be wrong.
+  const auto is_soon = [&](const HeldScan* held) {
+    return Ahead(*held) > 0 && clock_.IsRoughlyPeriod(Ahead(*held));
+  };
+  return static_cast<std::size_t>(std::find_if(held_.begin(), held_.end(), is_soon) -
+                                  held_.begin());
 }
 
 std::size_t LidarTrack::FindStep(const Others& others, bool is_final) const {

@@ -142,6 +142,7 @@ class LidarTrack {
   bool FindOffset(const Others& others);
   bool SetBackForAStep(std::size_t first);
   std::size_t FirstOfChain() const;
+  bool IsInPace(std::size_t i) const;
   bool HandOnNext();
   bool GoOnFromAnchor(const Others& others, bool is_final);
   std::size_t FindAnchor(const Others& others, bool is_final) const;

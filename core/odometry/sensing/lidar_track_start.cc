@@ -99,14 +99,30 @@ bool LidarTrack::SetBackForAStep(std::size_t first) {
 /// The first scan that others go on from; one past the end if there is none.
 std::size_t LidarTrack::FirstOfChain() const {
   std::size_t first = 0;
-  while (first < held_.size() && ChainLength(first) < 2) ++first;
-  if (first == held_.size()) return first;
-  const auto follows = [&](std::size_t i) {
-    const std::int64_t step_ns = Difference(held_[i]->times.begin_ns, held_[i - 1]->times.begin_ns);
-    return step_ns > 0 && step_ns <= clock_.longest_step_ns();
-  };
-  while (first > 0 && follows(first)) --first;
+  while (first < held_.size() && !IsInPace(first)) ++first;
+  if (first == held_.size()) {
+    first = 0;
+    while (first < held_.size() && ChainLength(first) < 2) ++first;
+    return first;
+  }
+  // Scans may be swapped.
+  for (std::size_t i = first + 1; i < held_.size(); ++i) {
+    const std::int64_t ahead_ns = Difference(held_[first]->times.begin_ns, held_[i]->times.begin_ns);
+    if (ahead_ns > 0 && clock_.IsRoughlyPeriod(ahead_ns) && IsInPace(i)) first = i;
+  }
   return first;
+}
+
+/// True if another scan lies as far from this one in time as in the order in which they came. A
+/// lone scan before a pause may have a wrong stamp, and is no great loss.
+bool LidarTrack::IsInPace(std::size_t i) const {
+  for (std::size_t k = i + 1; k < held_.size(); ++k) {
+    const auto periods = static_cast<std::int64_t>(k - i);
+    const std::int64_t step_ns = Difference(held_[k]->times.begin_ns, held_[i]->times.begin_ns);
+    if (step_ns <= 0) continue;
+    if (clock_.IsRoughlyPeriod(step_ns - (periods - 1) * clock_.period_ns())) return true;
+  }
+  return false;
 }
 
 }  // namespace trajlo

@@ -167,14 +167,15 @@ TEST(ScanSequencer, GivesAScanWithAWrongStampThePlaceThatIsFree) {
 }
 
 TEST(ScanSequencer, DropsAScanWithAWrongStampAtTheStartOrTheEnd) {
-  for (const std::int64_t wrong : {5 * kDay, -5 * kDay, 2 * kSecond, -kStart}) {
+  for (const std::int64_t wrong :
+       {5 * kDay, -5 * kDay, 2 * kSecond, -kStart, 500 * kMs, -500 * kMs, -250 * kMs}) {
     for (const int at : {0, 39}) {
       std::vector<std::int64_t> stamps = Regular(40);
       stamps[static_cast<std::size_t>(at)] += wrong;
       const Result result = SequenceStamps(stamps);
       EXPECT_EQ(result.scans.size(), 39u) << wrong << " at " << at;
       EXPECT_EQ(result.LargestError(), 0);
-      EXPECT_EQ(result.report.misfits, 1);
+      EXPECT_EQ(result.report.Dropped(), 1);
       EXPECT_EQ(result.report.points, 10);
     }
   }
@@ -627,9 +628,9 @@ TEST(ScanSequencer, ScansWithoutPointsAreNoMatter) {
 }
 
 TEST(ScanSequencer, CountsTheScansAfterTheLastOneOfUse) {
-  // The last scan with points comes after a pause: it is held, and handed on when all have come.
+  // The last scan with points comes after a lost one: it is held, and handed on when all have come.
   std::vector<LidarScan> scans = WithStamps(Regular(40));
-  scans[19] = MakeScan(19, scans[19].stamp_ns + 300 * kMs);
+  scans[19] = MakeScan(19, scans[19].stamp_ns + 100 * kMs);
   for (std::size_t i = 20; i < scans.size(); ++i) scans[i].points.clear();
   std::size_t handed_on = 0;
   ScanSequencer sequencer(0.5, [&](const LidarScan&) {
@@ -714,7 +715,7 @@ TEST(ScanSequencer, HoldsAFewScansAtMost) {
   ScanSequencer sequencer(0.5, [&](const LidarScan&) { ++out; });
   std::size_t in = 0, most_held = 0;
   for (int i = 0; i < 500; ++i) {
-    if (i < 20 || i == 22) {
+    if (i < 20 || i == 21) {
       sequencer.Add(MakeScan(i, kStart + i * kPeriod, 0));
       ++in;
     }
