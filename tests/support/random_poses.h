@@ -16,7 +16,7 @@ class Random {
   double Uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
-  double Gaussian(double sigma) { return std::normal_distribution<double>(0.0, sigma)(engine_); }
+  double Gaussian(double sigma) { return sigma * std::normal_distribution<double>()(engine_); }
   Eigen::Vector3d Direction() {
     return Eigen::Vector3d(Gaussian(1), Gaussian(1), Gaussian(1)).normalized();
   }

@@ -39,7 +39,7 @@ constexpr std::array<double, 10> kSineSeries = {-1.0 / 121645100408832000.0,
                                                 -1.0 / 6.0,
                                                 1.0};
 
-/// sin(x) to within 1e-13, several times as fast as the library's for the large arguments that a
+/// sin(x) to within 2e-13, several times as fast as the library's for the large arguments that a
 /// phase grows to. A body that shakes asks for thirty sines at every shot of the laser.
 inline double FastSine(double x) {
   // x = k pi + r with |r| <= pi/2; pi in two parts keeps the digits of r.

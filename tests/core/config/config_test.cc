@@ -3,13 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
 
 #include "core/config/edit_distance.h"
 #include "tests/core/config/config_testing.h"
+#include "tests/support/temp_folder.h"
 
 namespace trajlo {
 namespace {
@@ -81,12 +81,11 @@ TEST(Config, WhatIsNoFileOfTextIsRefusedAtOnce) {
   for (const char* path : {"/dev/zero", "/dev/full", "/", "/nowhere.yaml"}) {
     EXPECT_THAT(ConfigErrorOf([&] { LoadConfigFile(path, &config); }), StartsWith(path));
   }
-  const std::string pipe = ::testing::TempDir() + "/trajlo_config_pipe";
-  ::unlink(pipe.c_str());
+  const trajlo::testing::TempFolder folder;
+  const std::string pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THAT(ConfigErrorOf([&] { LoadConfigFile(pipe, &config); }),
               HasSubstr("not a regular file"));
-  ::unlink(pipe.c_str());
 }
 
 TEST(Config, SectionWithAValueAndOptionWithASectionAreErrors) {

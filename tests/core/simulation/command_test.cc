@@ -9,6 +9,8 @@
 #include <iterator>
 #include <string>
 
+#include "tests/support/temp_folder.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,14 +27,6 @@ std::string Contents(const fs::path& path) {
 
 class SimulateCommand : public testing::Test {
  protected:
-  SimulateCommand()
-      : folder_(fs::path(testing::TempDir()) / "trajlo_simulate_command" /
-                testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~SimulateCommand() override { fs::remove_all(folder_); }
-
   Outcome Run(const std::string& arguments) const {
     const std::string log = (folder_ / "log").string();
     const int status =
@@ -41,7 +35,7 @@ class SimulateCommand : public testing::Test {
   }
   std::string Out(const std::string& name) const { return (folder_ / name).string(); }
 
-  fs::path folder_;
+  trajlo::testing::TempFolder folder_;
 };
 
 TEST_F(SimulateCommand, HelpTeachesByExample) {

@@ -15,6 +15,7 @@
 #include "core/io/ros1/ros1_bag_reader.h"
 #include "core/simulation/point_time.h"
 #include "tests/core/simulation/hollow_cube.h"
+#include "tests/support/temp_folder.h"
 
 namespace trajlo::simulation {
 namespace {
@@ -35,19 +36,15 @@ std::vector<std::string> Lines(const fs::path& path) {
 
 SE3 SlowTurn(double t) { return {so3::Exp({0.0, 0.0, 0.3 * t}), {0.5 * t, 0.0, 0.0}}; }
 
-class RecordingWriterTest : public testing::Test {
+class RecordingWriterTest : public ::testing::Test {
  protected:
-  RecordingWriterTest()
-      : directory_(fs::path(testing::TempDir()) / "trajlo_recording" /
-                   testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    fs::remove_all(directory_);
+  RecordingWriterTest() {
     scenario_.name = "cube";
     scenario_.description = "a cube";
     scenario_.rig = {MakeLidar("os1_16", {so3::Exp({0.0, 0.1, 0.0}), {0.1, 0.2, 0.3}})};
     scenario_.duration_s = 0.5;
     scenario_.start_time_ns = 1'700'000'000'250'000'000;
   }
-  ~RecordingWriterTest() override { fs::remove_all(directory_); }
 
   std::vector<SimulatedScan> Record(const std::optional<BagFormat>& bag = {}) {
     const Simulator simulator(scenario_, MakeHollowCube(), SlowTurn);
@@ -62,7 +59,8 @@ class RecordingWriterTest : public testing::Test {
     return scans;
   }
 
-  fs::path directory_;
+  trajlo::testing::TempFolder folder_;
+  fs::path directory_ = folder_ / "recording";
   Scenario scenario_;
 };
 
@@ -229,8 +227,8 @@ TEST_F(RecordingWriterTest, ThePictureShowsSceneAndPath) {
 }
 
 TEST_F(RecordingWriterTest, AFolderThatCannotBeMadeIsNamed) {
-  std::ofstream(testing::TempDir() + "trajlo_not_a_folder") << "x";
-  directory_ = fs::path(testing::TempDir()) / "trajlo_not_a_folder";
+  directory_ = folder_ / "trajlo_not_a_folder";
+  std::ofstream(directory_) << "x";
   try {
     Record();
     FAIL();
