@@ -107,7 +107,8 @@ std::size_t LidarTrack::FirstOfChain() const {
   }
   // Scans may be swapped.
   for (std::size_t i = first + 1; i < held_.size(); ++i) {
-    const std::int64_t ahead_ns = Difference(held_[first]->times.begin_ns, held_[i]->times.begin_ns);
+    const std::int64_t ahead_ns =
+        Difference(held_[first]->times.begin_ns, held_[i]->times.begin_ns);
     if (ahead_ns > 0 && clock_.IsRoughlyPeriod(ahead_ns) && IsInPace(i)) first = i;
   }
   return first;
