@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Prints file by file which share of the lines of manifolds, factors and core/odometry their own tests
-# run, and which lines none runs; ends with 1 where a layer is below 90 %. Builds in build-coverage.
+# Prints file by file which share of the lines of manifolds, factors, core/scans and core/odometry
+# their own tests run, and which lines none runs; ends with 1 where a layer is below 90 %. Builds in
+# build-coverage.
 # Simulated recordings (golden trajectories, pauses) do not count: they run nearly every line, and
 # would hide what has no test.
 set -euo pipefail
@@ -10,11 +11,11 @@ cd "$root"
 build="${TRAJLO_BUILD_DIR:-$root/build-coverage}"
 jobs="${TRAJLO_JOBS:-$(nproc)}"
 if [[ $# -gt 0 ]]; then
-  sed -n '3,6p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
+  sed -n '3,7p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
   [[ "$1" == -h || "$1" == --help ]] && exit 0
   exit 1
 fi
-layers=(manifolds factors core/odometry)
+layers=(manifolds factors core/scans core/odometry)
 
 mapfile -t tests < <(find "${layers[@]/#/tests/}" -name '*_test.cc' -exec basename -s .cc {} + |
   grep -vE '^(golden_trajectory|pauses)_test$' | sort)

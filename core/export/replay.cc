@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/replay.h"
 
-#include "core/odometry/sensing/scan_sequencer.h"
+#include "core/scans/scan_sequencer.h"
 
 namespace trajlo {
 
 PlacementCounts ReplayRecording(const RunResult& result, ScanSource* recording,
                                 const std::function<bool(const PlacedScan&)>& visit) {
-  const SegmenterOptions& sensing = result.config.odometry.segmenter;
-  ScanPlacer placer(&result.trajectory, sensing);
+  const SegmenterOptions& segmenter = result.config.odometry.segmenter;
+  ScanPlacer placer(&result.trajectory, segmenter);
   bool goes_on = true;
-  ScanSequencer sequencer(sensing.max_lag_s, [&](const LidarScan& scan) {
+  ScanSequencer sequencer(segmenter.max_lag_s, [&](const LidarScan& scan) {
     if (!goes_on) return;
     const std::optional<PlacedScan> placed = placer.Place(scan);
     if (placed) goes_on = visit(*placed);

@@ -4,20 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/odometry/sensing/turn_up.h"
+#include "core/odometry/segments/turn_up.h"
 
 namespace trajlo {
 
-ScanPlacer::ScanPlacer(const Trajectory* trajectory, const SegmenterOptions& sensing)
+ScanPlacer::ScanPlacer(const Trajectory* trajectory, const SegmenterOptions& segmenter)
     : trajectory_(trajectory),
-      sensing_(sensing),
-      max_gap_ns_(std::llround(1e9 * sensing.max_gap_s)) {}
+      segmenter_(segmenter),
+      max_gap_ns_(std::llround(1e9 * segmenter.max_gap_s)) {}
 
 std::optional<PlacedScan> ScanPlacer::Place(const LidarScan& scan) {
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);
   const SE3 T_body_lidar =
-      lidar < sensing_.T_body_lidar.size() ? sensing_.T_body_lidar[lidar] : SE3();
-  const auto turn_rad = static_cast<float>(sensing_.vertical_correction_deg * M_PI / 180.0);
+      lidar < segmenter_.T_body_lidar.size() ? segmenter_.T_body_lidar[lidar] : SE3();
+  const auto turn_rad = static_cast<float>(segmenter_.vertical_correction_deg * M_PI / 180.0);
   PlacedScan placed;
   placed.lidar_id = scan.lidar_id;
   placed.points_world_m.reserve(scan.points.size());
@@ -25,7 +25,7 @@ std::optional<PlacedScan> ScanPlacer::Place(const LidarScan& scan) {
   motions_.clear();
   for (const LidarPoint& point : scan.points) {
     const double range_m = point.xyz_m.cast<double>().norm();
-    if (!(range_m >= sensing_.min_range_m && range_m <= sensing_.max_range_m)) {  // NaN, too
+    if (!(range_m >= segmenter_.min_range_m && range_m <= segmenter_.max_range_m)) {  // NaN, too
       ++counts_.unusable;
       continue;
     }

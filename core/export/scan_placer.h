@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_scan.h"
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
 #include "core/odometry/trajectory/trajectory.h"
+#include "core/scans/lidar_scan.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
@@ -39,7 +39,7 @@ struct PlacedScan {
 class ScanPlacer {
  public:
   /// `trajectory` must outlive this and not change.
-  ScanPlacer(const Trajectory* trajectory, const SegmenterOptions& sensing);
+  ScanPlacer(const Trajectory* trajectory, const SegmenterOptions& segmenter);
 
   /// Nothing if no point of the scan can be placed. Times are those that the estimator used.
   std::optional<PlacedScan> Place(const LidarScan& scan);
@@ -50,7 +50,7 @@ class ScanPlacer {
   bool IsInSegment(std::size_t end, std::int64_t t_ns) const;
 
   const Trajectory* trajectory_;
-  SegmenterOptions sensing_;
+  SegmenterOptions segmenter_;
   std::int64_t max_gap_ns_;
   PlacementCounts counts_;
   /// The index of the pose at the end of the segment that was asked for last.

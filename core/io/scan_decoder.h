@@ -9,7 +9,7 @@
 
 #include "core/io/point_table.h"
 #include "core/io/time_convention.h"
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 
 namespace trajlo {
 

@@ -11,7 +11,7 @@
 #include "core/io/scan_decoder.h"
 #include "core/io/stamp_text.h"
 #include "core/io/time_probe.h"
-#include "core/odometry/sensing/scan_times.h"
+#include "core/scans/scan_times.h"
 
 namespace trajlo {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 
 namespace trajlo {
 

@@ -3,7 +3,7 @@
 
 #include "core/odometry/health/loss_watch.h"
 #include "core/odometry/map/map_pyramid.h"
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
 #include "core/odometry/solvers/solver_options.h"
 #include "core/odometry/start/initial_motion.h"
 #include "core/odometry/weights/motion_prior.h"

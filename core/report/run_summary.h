@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/io/scan_source.h"
-#include "core/odometry/sensing/segment_cloud.h"
-#include "core/odometry/sensing/time_report.h"
+#include "core/odometry/segments/segment_cloud.h"
 #include "core/report/pose_flags.h"
 #include "core/report/window_totals.h"
+#include "core/scans/time_report.h"
 
 namespace trajlo {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/odometry/sensing/turn_up.h"
+#include "core/odometry/segments/turn_up.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
@@ -56,8 +56,8 @@ void ScanSampler::Note(const LidarScan& scan) {
   for (std::size_t i = variates_.size(); i < scan.points.size(); ++i) {
     variates_.push_back(static_cast<float>(-std::log(EvenShare(i))));
   }
-  const double min_squared = sensing_.min_range_m * sensing_.min_range_m;
-  const double max_squared = sensing_.max_range_m * sensing_.max_range_m;
+  const double min_squared = segmenter_.min_range_m * segmenter_.min_range_m;
+  const double max_squared = segmenter_.max_range_m * segmenter_.max_range_m;
   const auto lidar = static_cast<std::uint16_t>(scan.lidar_id);
   std::int64_t begin_ns = 0, end_ns = 0;  // of the moment of the last point
   Moment* moment = nullptr;               // if it is kept
@@ -105,7 +105,7 @@ void ScanSampler::DropEveryOther() {
 }
 
 std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory) const {
-  const auto turn_rad = static_cast<float>(sensing_.vertical_correction_deg * M_PI / 180.0);
+  const auto turn_rad = static_cast<float>(segmenter_.vertical_correction_deg * M_PI / 180.0);
   PlaceAlong place_along(trajectory);
   std::vector<WorldPoint> points;
   for (const auto& [index, moment] : moments_) {
@@ -113,8 +113,8 @@ std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory) const 
     for (const Kept& kept : moment) {
       if (!place_along.Enter(kept.t_ns)) continue;
       const Eigen::Vector3d p_lidar = TurnUp(kept.p_lidar_m, turn_rad).cast<double>();
-      const Eigen::Vector3d p_body = kept.lidar < sensing_.T_body_lidar.size()
-                                         ? sensing_.T_body_lidar[kept.lidar] * p_lidar
+      const Eigen::Vector3d p_body = kept.lidar < segmenter_.T_body_lidar.size()
+                                         ? segmenter_.T_body_lidar[kept.lidar] * p_lidar
                                          : p_lidar;
       points.push_back(
           {place_along.World(kept.t_ns, p_body).cast<float>(), kept.intensity, moment_ns});

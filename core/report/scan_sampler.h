@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
 #include "core/odometry/trajectory/trajectory.h"
 
 namespace trajlo {
@@ -36,8 +36,8 @@ struct WorldPoint {
 class ScanSampler {
  public:
   /// Points are used that the estimator uses (by range, without NaN), where it takes them to be.
-  explicit ScanSampler(const SegmenterOptions& sensing, const ScanSamplingOptions& options = {})
-      : sensing_(sensing), options_(options) {}
+  explicit ScanSampler(const SegmenterOptions& segmenter, const ScanSamplingOptions& options = {})
+      : segmenter_(segmenter), options_(options) {}
 
   void Note(const LidarScan& scan);
 
@@ -59,7 +59,7 @@ class ScanSampler {
   void Thin(Moment* moment);
   void DropEveryOther();
 
-  SegmenterOptions sensing_;
+  SegmenterOptions segmenter_;
   ScanSamplingOptions options_;
   std::vector<float> variates_;  ///< Exponential ones of rate 1, by the index of a point.
   std::vector<float> keys_;

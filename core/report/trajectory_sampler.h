@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "core/odometry/sensing/lidar_scan.h"
 #include "core/odometry/trajectory/trajectory.h"
+#include "core/scans/lidar_scan.h"
 
 namespace trajlo {
 

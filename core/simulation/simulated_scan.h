@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 
 namespace trajlo::simulation {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 #include "tests/fuzz/byte_source.h"
 #include "tests/support/room_recording.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Time, from the stamps of random scans to segments.
-#include "core/odometry/sensing/scan_sequencer.h"
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
+#include "core/scans/scan_sequencer.h"
 #include "tests/fuzz/fuzzing.h"
 #include "tests/fuzz/random_scans.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 #include "manifolds/se3.h"
 #include "tests/support/random_poses.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 #include "manifolds/se3.h"
 
 // Between numpy's arrays and ours. What comes in may have any strides, and is copied once. All

@@ -8,7 +8,7 @@
 #include "apps/python/module/bindings.h"
 #include "apps/python/module/make_scan.h"
 #include "core/io/stamp_text.h"
-#include "core/odometry/sensing/scan_times.h"
+#include "core/scans/scan_times.h"
 
 namespace trajlo::python {
 namespace {

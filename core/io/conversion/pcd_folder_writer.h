@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/io/output_file.h"
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 
 namespace trajlo {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/io/inspection/inspection.h"
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 
 namespace trajlo {
 

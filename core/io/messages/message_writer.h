@@ -8,7 +8,7 @@
 #include "core/io/messages/message_description.h"
 #include "core/io/messages/message_header.h"
 #include "core/io/messages/wire_writer.h"
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {

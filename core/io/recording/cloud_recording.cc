@@ -9,7 +9,7 @@
 #include "core/io/errors.h"
 #include "core/io/recording/probe_times.h"
 #include "core/io/scan_decoder.h"
-#include "core/odometry/sensing/scan_times.h"
+#include "core/scans/scan_times.h"
 
 namespace trajlo {
 namespace {

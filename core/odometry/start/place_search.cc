@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/odometry/sensing/choose_evenly.h"
+#include "core/odometry/segments/choose_evenly.h"
 
 namespace trajlo {
 namespace {

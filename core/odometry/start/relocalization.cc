@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "core/odometry/sensing/choose_evenly.h"
+#include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/window/association.h"
 #include "factors/segment_linearizer.h"
 #include "manifolds/se3_interpolation.h"

@@ -8,7 +8,7 @@
 
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/parallel/parallel_for.h"
-#include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/segments/segment_cloud.h"
 #include "core/odometry/window/step_size.h"
 #include "factors/registration_point.h"
 #include "manifolds/se3_interpolation.h"

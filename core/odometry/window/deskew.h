@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/segments/segment_cloud.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {

@@ -3,7 +3,7 @@
 
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/parallel/parallel_for.h"
-#include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/segments/segment_cloud.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {

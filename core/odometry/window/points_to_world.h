@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/segments/segment_cloud.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {

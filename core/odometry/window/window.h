@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/segments/segment_cloud.h"
 #include "core/odometry/window/association.h"
 #include "core/odometry/window/spurious_information.h"
 #include "factors/marginalization_prior.h"

@@ -39,9 +39,9 @@ LidarScan MakeScan(Random* random, std::int64_t from_ns, std::int64_t to_ns, int
 TEST(ScanPlacer, PutsEveryPointWhereTheTrajectoryWasAtItsTime) {
   Random random(1);
   const Trajectory trajectory = MakeTrajectory(&random, 20);
-  SegmenterOptions sensing;
-  sensing.T_body_lidar = {random.Pose(), random.Pose()};
-  ScanPlacer placer(&trajectory, sensing);
+  SegmenterOptions segmenter;
+  segmenter.T_body_lidar = {random.Pose(), random.Pose()};
+  ScanPlacer placer(&trajectory, segmenter);
   for (int lidar = 0; lidar < 3; ++lidar) {
     LidarScan scan = MakeScan(&random, kBeginNs, kBeginNs + 19 * kStepNs, 500);
     scan.lidar_id = lidar;  // The third has no extrinsics: the identity.
@@ -53,7 +53,7 @@ TEST(ScanPlacer, PutsEveryPointWhereTheTrajectoryWasAtItsTime) {
     EXPECT_EQ(placed->t_ns, kBeginNs + 19 * kStepNs);
     ASSERT_EQ(placed->points_world_m.size(), scan.points.size());
     const SE3 T_body_lidar =
-        lidar < 2 ? sensing.T_body_lidar[static_cast<std::size_t>(lidar)] : SE3();
+        lidar < 2 ? segmenter.T_body_lidar[static_cast<std::size_t>(lidar)] : SE3();
     for (std::size_t i = 0; i < scan.points.size(); ++i) {
       const LidarPoint& point = scan.points[i];
       const Eigen::Vector3d expected =
@@ -69,10 +69,10 @@ TEST(ScanPlacer, PutsEveryPointWhereTheTrajectoryWasAtItsTime) {
 TEST(ScanPlacer, CountsWhatCannotBePlaced) {
   Random random(2);
   const Trajectory trajectory = MakeTrajectory(&random, 5);
-  SegmenterOptions sensing;
-  sensing.min_range_m = 2.0;
-  sensing.max_range_m = 40.0;
-  ScanPlacer placer(&trajectory, sensing);
+  SegmenterOptions segmenter;
+  segmenter.min_range_m = 2.0;
+  segmenter.max_range_m = 40.0;
+  ScanPlacer placer(&trajectory, segmenter);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   LidarScan scan;
   scan.points = {{{1.0F, 0.0F, 0.0F}, 0.0F, kBeginNs},
@@ -94,9 +94,9 @@ TEST(ScanPlacer, WithinAPauseNothingIsPlacedAndAtItsEndsEverything) {
   Trajectory trajectory;
   trajectory.Append({kBeginNs, SE3(), 0});
   trajectory.Append({kBeginNs + 3'000'000'000, SE3(), 0});
-  SegmenterOptions sensing;
-  sensing.max_gap_s = 1.0;
-  ScanPlacer placer(&trajectory, sensing);
+  SegmenterOptions segmenter;
+  segmenter.max_gap_s = 1.0;
+  ScanPlacer placer(&trajectory, segmenter);
   LidarScan scan;
   for (const std::int64_t offset_ns :
        {0LL, 1LL, 1'500'000'000LL, 2'999'999'999LL, 3'000'000'000LL}) {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/odometry/sensing/scan_times.h"
+#include "core/scans/scan_times.h"
 #include "tests/support/synthetic_world.h"
 
 namespace trajlo {

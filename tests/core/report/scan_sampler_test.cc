@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/io/point_file.h"
-#include "core/odometry/sensing/turn_up.h"
+#include "core/odometry/segments/turn_up.h"
 #include "core/report/view_ply.h"
 #include "tests/support/temp_folder.h"
 
@@ -126,12 +126,12 @@ TEST(ScanSamplerTest, FarPointsAreKeptInProportionToTheirRange) {
 
 TEST(ScanSamplerTest, PointsAreWhereTheyWereMeasuredAlsoWithAnExtrinsicAndATurnedBeam) {
   const std::vector<Eigen::Vector3d> posts = {{9, 2, 1}, {-7, 4, 0.5}, {1, -12, 2}};
-  SegmenterOptions sensing;
+  SegmenterOptions segmenter;
   SE3 T_body_lidar;
   T_body_lidar.q = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY());
   T_body_lidar.t = Eigen::Vector3d(0.1, -0.2, 0.3);
-  sensing.T_body_lidar = {SE3(), T_body_lidar};
-  sensing.vertical_correction_deg = 0.205;
+  segmenter.T_body_lidar = {SE3(), T_body_lidar};
+  segmenter.vertical_correction_deg = 0.205;
   const auto too_low_rad = static_cast<float>(0.205 * M_PI / 180.0);
   LidarScan scan;
   scan.lidar_id = 1;
@@ -144,7 +144,7 @@ TEST(ScanSamplerTest, PointsAreWhereTheyWereMeasuredAlsoWithAnExtrinsicAndATurne
     point.intensity = static_cast<float>(i % 3);
     scan.points.push_back(point);
   }
-  ScanSampler sampler(sensing);
+  ScanSampler sampler(segmenter);
   sampler.Note(scan);
   const std::vector<WorldPoint> points = sampler.Deskew(Drive(0.4));
   EXPECT_THAT(points, SizeIs(300));
@@ -155,15 +155,15 @@ TEST(ScanSamplerTest, PointsAreWhereTheyWereMeasuredAlsoWithAnExtrinsicAndATurne
 }
 
 TEST(ScanSamplerTest, WhatTheEstimatorDoesNotUseIsNotShown) {
-  SegmenterOptions sensing;
-  sensing.min_range_m = 1.0;
-  sensing.max_range_m = 50.0;
+  SegmenterOptions segmenter;
+  segmenter.min_range_m = 1.0;
+  segmenter.max_range_m = 50.0;
   LidarScan scan = Sweep(0, 1);
   scan.points[0].xyz_m = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
   scan.points[1].xyz_m *= 0.1F;
   scan.points[2].xyz_m *= 10.0F;
   scan.points[3].t_ns += 10 * kSweep_ns;  // beyond the trajectory
-  ScanSampler sampler(sensing);
+  ScanSampler sampler(segmenter);
   sampler.Note(scan);
   EXPECT_THAT(sampler.Deskew(Drive(0.2)), SizeIs(kRings - 4));
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
 #include "tests/support/synthetic_world.h"
 
 namespace trajlo {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/odometry/sensing/choose_evenly.h"
-#include "core/odometry/sensing/turn_up.h"
+#include "core/odometry/segments/choose_evenly.h"
+#include "core/odometry/segments/turn_up.h"
 
 namespace trajlo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/scan_sequencer.h"
+#include "core/scans/scan_sequencer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 
 namespace trajlo {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "core/odometry/sensing/scan_times.h"
+#include "core/scans/scan_times.h"
 
 namespace trajlo {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_scan.h"
-#include "core/odometry/sensing/recent_median.h"
-#include "core/odometry/sensing/scan_times.h"
+#include "core/scans/lidar_scan.h"
+#include "core/scans/recent_median.h"
+#include "core/scans/scan_times.h"
 
 namespace trajlo {
 

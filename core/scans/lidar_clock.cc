@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/lidar_clock.h"
+#include "core/scans/lidar_clock.h"
 
 #include <algorithm>
 

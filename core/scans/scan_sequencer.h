@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_scan.h"
-#include "core/odometry/sensing/lidar_track.h"
-#include "core/odometry/sensing/time_report.h"
+#include "core/scans/lidar_scan.h"
+#include "core/scans/lidar_track.h"
+#include "core/scans/time_report.h"
 
 namespace trajlo {
 

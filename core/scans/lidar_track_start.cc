@@ -2,7 +2,7 @@
 // The first scans of a LiDAR: its period, and whether its clock is that of the others.
 #include <algorithm>
 
-#include "core/odometry/sensing/lidar_track.h"
+#include "core/scans/lidar_track.h"
 
 namespace trajlo {
 namespace {

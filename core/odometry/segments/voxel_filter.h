@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/odometry/sensing/segment_cloud.h"
+#include "core/odometry/segments/segment_cloud.h"
 
 namespace trajlo {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/scan_view.h"
+#include "core/scans/scan_view.h"
 
 #include <gtest/gtest.h>
 

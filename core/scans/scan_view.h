@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_scan.h"
+#include "core/scans/lidar_scan.h"
 
 namespace trajlo {
 

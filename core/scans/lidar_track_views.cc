@@ -2,7 +2,7 @@
 // What the views of scans tell about their order, and about steps of the clock.
 #include <algorithm>
 
-#include "core/odometry/sensing/lidar_track.h"
+#include "core/scans/lidar_track.h"
 
 namespace trajlo {
 namespace {

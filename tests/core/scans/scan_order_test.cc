@@ -2,8 +2,8 @@
 // ScanSequencer on scans of a LiDAR that moves: what they show tells more than their stamps.
 #include <gtest/gtest.h>
 
-#include "core/odometry/sensing/scan_sequencer.h"
-#include "core/odometry/sensing/scan_times.h"
+#include "core/scans/scan_sequencer.h"
+#include "core/scans/scan_times.h"
 #include "tests/support/synthetic_world.h"
 
 namespace trajlo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/segment_stream.h"
+#include "core/odometry/segments/segment_stream.h"
 
 #include <utility>
 

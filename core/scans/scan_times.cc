@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/scan_times.h"
+#include "core/scans/scan_times.h"
 
 #include <algorithm>
 #include <cstring>

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_scan.h"
-#include "core/odometry/sensing/segment_cloud.h"
-#include "core/odometry/sensing/voxel_filter.h"
+#include "core/odometry/segments/segment_cloud.h"
+#include "core/odometry/segments/voxel_filter.h"
 #include "core/options/describe.h"
+#include "core/scans/lidar_scan.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {

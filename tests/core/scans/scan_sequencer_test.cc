@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/scan_sequencer.h"
+#include "core/scans/scan_sequencer.h"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
 
 namespace trajlo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/sensing/voxel_filter.h"
+#include "core/odometry/segments/voxel_filter.h"
 
 #include <cmath>
 

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/odometry/parallel/parallel_for.h"
-#include "core/odometry/sensing/scan_sequencer.h"
-#include "core/odometry/sensing/segmenter.h"
+#include "core/odometry/segments/segmenter.h"
+#include "core/scans/scan_sequencer.h"
 
 namespace trajlo {
 

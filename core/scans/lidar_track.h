@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/odometry/sensing/lidar_clock.h"
-#include "core/odometry/sensing/lidar_scan.h"
-#include "core/odometry/sensing/scan_memory.h"
-#include "core/odometry/sensing/scan_times.h"
-#include "core/odometry/sensing/scan_view.h"
+#include "core/scans/lidar_clock.h"
+#include "core/scans/lidar_scan.h"
+#include "core/scans/scan_memory.h"
+#include "core/scans/scan_times.h"
+#include "core/scans/scan_view.h"
 
 namespace trajlo {
 
@@ -42,7 +42,7 @@ struct Judgement {
 };
 
 /// Judges the times of the scans of one LiDAR. (lidar_track_start.cc has the first scans,
-/// lidar_track_views.cc what views tell.)
+/// lidar_track_steps.cc the steps of the clock, lidar_track_views.cc what views tell.)
 ///
 /// Scans of a LiDAR come in order and at a steady period. One that goes on from the scan before is
 /// handed on at once. Any other is held until those after it tell what happened:
