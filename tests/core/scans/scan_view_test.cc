@@ -29,7 +29,9 @@ TEST(ScanView, DiffersTheMoreTheFartherOneMoved) {
   for (const auto& [speed_m_s, turn_rad_s] :
        {std::pair(2.0, 0.0), std::pair(5.0, 0.3), std::pair(0.0, 0.8)}) {
     SyntheticWorld world;
-    world.T_world_body = [&](double t) { return Along(speed_m_s, turn_rad_s, t); };
+    world.T_world_body = [speed = speed_m_s, turn = turn_rad_s](double t) {
+      return Along(speed, turn, t);
+    };
     const std::vector<ScanView> views = Views(world, 8);
     for (std::size_t i = 0; i + 2 < views.size(); ++i) {
       const auto next = ScanView::Difference(views[i], views[i + 1]);
