@@ -63,7 +63,7 @@ std::string RunSummary::MissingInput() const {
   }
   if (static_cast<double>(times.odd_point_times) > kSizeableShare * scans) {
     parts.push_back("of " + std::to_string(times.scans) +
-                    " scans some have one time for all points, the others have not");
+                    " scans some have one time for all points, the others one for each");
   }
   if (static_cast<double>(times.stuck) > kSizeableShare * scans) {
     parts.push_back(std::to_string(times.stuck) + " of " + std::to_string(times.scans) +

@@ -94,7 +94,7 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.times.moved = 0;
   s.times.odd_point_times = 6;
   EXPECT_EQ(s.MissingInput(),
-            "of 100 scans some have one time for all points, the others have not");
+            "of 100 scans some have one time for all points, the others one for each");
   s.times.odd_point_times = 5;
   s.times.exchanged = 6;
   EXPECT_EQ(s.MissingInput(), "6 of 100 scans seem to be out of order, by what they show");
