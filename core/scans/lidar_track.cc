@@ -132,6 +132,35 @@ bool LidarTrack::GoOnFromAnchor(const Others& others, bool is_final) {
   return true;
 }
 
+/// A scan that came before this one, does not lie before it, and that others go on from as well,
+/// contradicts it: one of the two has a wrong stamp. It is this one
+///   - if it is the same scan again;
+///   - where none was lost: if only the other has its place by the order in which they came;
+///   - where some were lost: if they have the same stamp, as a stamp can be a copy of one before,
+///     not of one to come; or if only the other comes whole periods after the last scan.
+std::size_t LidarTrack::InStep(std::size_t i) const {
+  constexpr double kSame = 0.1, kClearlyLess = 0.1;
+  const std::size_t next = i + 1;
+  if (next == held_.size()) return i;
+  const auto is_in_order = [&](std::size_t k) {
+    return std::abs(PeriodsAhead(*held_[k]) - static_cast<double>(k + 1)) < 0.5;
+  };
+  const auto out_of_step = [](double periods) { return std::abs(periods - std::round(periods)); };
+  const double ahead = PeriodsAhead(*held_[i]);
+  for (std::size_t k = 0; k < i; ++k) {
+    const double other = PeriodsAhead(*held_[k]);
+    if (other < ahead || !IsPlausibleStep(*held_[k], *held_[next])) continue;
+    const bool has_its_stamp = other - ahead < kSame;
+    if (has_its_stamp && Fingerprint(held_[k]->scan) == Fingerprint(held_[i]->scan)) return k;
+    if (is_in_order(next)) {
+      if (is_in_order(k)) return k;
+    } else if (has_its_stamp || out_of_step(other) < out_of_step(ahead) - kClearlyLess) {
+      return k;
+    }
+  }
+  return i;
+}
+
 /// The first scan of the same clock that others go on from; one past the end if there is none.
 std::size_t LidarTrack::FindAnchor(const Others& others, bool is_final) const {
   const std::size_t confirm = is_final ? 2 : kConfirmPause;
@@ -141,7 +170,7 @@ std::size_t LidarTrack::FindAnchor(const Others& others, bool is_final) const {
     if (is_other_clock && IsPlausibleStep(*held_[i - 1], *held_[i])) continue;
     is_other_clock = false;
     if (ChainLength(i) < confirm || ComesFromBehind(i)) continue;
-    if (IsSameClock(i, others)) return i;
+    if (IsSameClock(i, others)) return InStep(i);
     is_other_clock = Ahead(*held_[i]) > 0;
   }
   if (!is_final) return held_.size();

@@ -146,6 +146,7 @@ class LidarTrack {
   bool HandOnNext();
   bool GoOnFromAnchor(const Others& others, bool is_final);
   std::size_t FindAnchor(const Others& others, bool is_final) const;
+  std::size_t InStep(std::size_t i) const;
   std::size_t FindStep(const Others& others, bool is_final) const;
   void TakeBackStep(std::size_t anchor, const Others& others);
   void PlaceThoseBefore(const HeldScan& anchor);

@@ -181,6 +181,44 @@ TEST(ScanSequencer, DropsAScanWithAWrongStampAtTheStartOrTheEnd) {
   }
 }
 
+TEST(ScanSequencer, OfTwoStampsThatContradictEachOtherTheOneOutOfStepIsWrong) {
+  // A scan is lost, and the second one after it has the stamp of the first, or one before it.
+  for (const std::int64_t wrong : {-kPeriod, -kPeriod - 20 * kMs, -kPeriod - 40 * kMs}) {
+    for (const int at : {8, 20, 35}) {
+      std::vector<LidarScan> scans = WithStamps(Regular(40));
+      ShiftTimes(wrong, &scans[static_cast<std::size_t>(at)]);
+      scans.erase(scans.begin() + at - 2);
+      const Result result = Sequence(scans);
+      EXPECT_EQ(result.scans.size(), 39u) << wrong << " at " << at;
+      EXPECT_EQ(result.LargestError(), 0) << wrong << " at " << at;
+      EXPECT_EQ(result.report.retimed, 1) << wrong << " at " << at;
+    }
+  }
+}
+
+TEST(ScanSequencer, OfTwoCopiesOfStampsInARowBothGetTheirPlaces) {
+  for (const std::size_t at : {8u, 20u, 35u}) {
+    std::vector<std::int64_t> stamps = Regular(40);
+    stamps[at] = stamps[at - 1];
+    stamps[at + 2] = stamps[at + 1];
+    const Result result = SequenceStamps(stamps);
+    EXPECT_EQ(result.scans.size(), 40u) << at;
+    EXPECT_EQ(result.LargestError(), 0) << at;
+    EXPECT_EQ(result.report.retimed, 2) << at;
+  }
+}
+
+TEST(ScanSequencer, AScanThatComesTwiceBehindALostOneDoesNotTakeItsPlace) {
+  for (const int at : {8, 20, 35}) {
+    std::vector<LidarScan> scans = WithStamps(Regular(40));
+    scans[static_cast<std::size_t>(at - 1)] = scans[static_cast<std::size_t>(at)];
+    const Result result = Sequence(scans);
+    EXPECT_EQ(result.scans.size(), 39u) << at;
+    EXPECT_EQ(result.LargestError(), 0) << at;
+    EXPECT_EQ(result.report.repeated, 1) << at;
+  }
+}
+
 TEST(ScanSequencer, DropsAWrongStampWhereSeveralPlacesAreFree) {
   std::vector<std::int64_t> stamps = Regular(40);
   stamps[20] += kHour;
