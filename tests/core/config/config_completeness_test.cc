@@ -17,7 +17,9 @@ namespace {
 /// Stands for a value of any type in an aggregate initialisation that is never evaluated.
 struct AnyValue {
   template <typename T>
-  operator T() const;
+  operator T() const {
+    return {};
+  }
 };
 
 template <typename T, typename Indices, typename = void>
