@@ -73,6 +73,11 @@ std::string RunSummary::MissingInput() const {
     parts.push_back(std::to_string(times.exchanged) + " of " + std::to_string(times.scans) +
                     " scans seem to be out of order, by what they show");
   }
+  if (static_cast<double>(times.before_first_point) > kSizeableShare * scans) {
+    parts.push_back("the first " + std::to_string(times.before_first_point) + " of " +
+                    std::to_string(times.scans) +
+                    " scans have no point that can be used: of their time nothing is known");
+  }
   if (static_cast<double>(times.Unseen()) > kSizeableShare * scans) {
     parts.push_back("the last " + std::to_string(times.Unseen()) + " of " +
                     std::to_string(times.scans) +

@@ -32,7 +32,7 @@ bool LidarClock::IsPeriod(std::int64_t step_ns) const {
 }
 
 bool LidarClock::IsRoughlyPeriod(std::int64_t step_ns) const {
-  return 2 * Distance(step_ns, period_ns_) <= 3 * period_ns_;
+  return Distance(step_ns, period_ns_) <= period_ns_ + period_ns_ / 2;
 }
 
 bool LidarClock::IsNext(std::int64_t begin_ns) const {

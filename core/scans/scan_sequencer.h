@@ -36,6 +36,7 @@ class ScanSequencer {
 
   /// A point of the scan that is being handed on is of use.
   void NoteUse() {
+    if (report_.until_last_point == 0) report_.before_first_point = handed_on_arrival_;
     report_.until_last_point = std::max(report_.until_last_point, handed_on_arrival_ + 1);
   }
 

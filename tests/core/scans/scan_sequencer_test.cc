@@ -682,6 +682,17 @@ TEST(ScanSequencer, CountsTheScansAfterTheLastOneOfUse) {
   EXPECT_EQ(sequencer.report().Unseen(), 20);
 }
 
+TEST(ScanSequencer, CountsTheScansBeforeTheFirstOneOfUse) {
+  int handed_on = 0;
+  ScanSequencer sequencer(0.5, [&](const LidarScan&) {
+    if (++handed_on == 8 || handed_on == 12) sequencer.NoteUse();
+  });
+  for (const LidarScan& scan : WithStamps(Regular(20))) sequencer.Add(scan);
+  sequencer.Finish();
+  EXPECT_EQ(sequencer.report().before_first_point, 7);
+  EXPECT_EQ(sequencer.report().Unseen(), 8);
+}
+
 TEST(ScanSequencer, AnyStampsGiveIncreasingTimesAndEveryScanIsAccountedFor) {
   for (unsigned seed = 0; seed < 2000; ++seed) {
     std::mt19937_64 random(seed);
