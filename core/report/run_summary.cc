@@ -76,7 +76,7 @@ std::string RunSummary::MissingInput() const {
   if (static_cast<double>(times.before_first_point) > kSizeableShare * scans) {
     parts.push_back("the first " + std::to_string(times.before_first_point) + " of " +
                     std::to_string(times.scans) +
-                    " scans have no point that can be used: of their time nothing is known");
+                    " scans have no point that can be used: how the LiDAR moved then is not known");
   }
   if (static_cast<double>(times.Unseen()) > kSizeableShare * scans) {
     parts.push_back("the last " + std::to_string(times.Unseen()) + " of " +

@@ -38,7 +38,7 @@ class LidarClock {
   ScanPlace PlaceOf(const LidarScan& scan, const ScanTimes& times) const;
   /// True if so much time between two scans is about one period.
   bool IsPeriod(std::int64_t step_ns) const;
-  /// True if it is one period, give or take one and a half: stamps jitter, and a scan is lost.
+  /// True if it is one period, give or take one and a half: stamps jitter, and a scan may be lost.
   bool IsRoughlyPeriod(std::int64_t step_ns) const;
   /// True if a scan there is the next one at a steady period.
   bool IsNext(std::int64_t begin_ns) const;

@@ -55,7 +55,8 @@ struct Judgement {
 ///     neighbours if there is one for each such scan, and is dropped otherwise, as is a scan that
 ///     was handed on before.
 /// So times that increase by steps below a minute are only changed where views tell of a step. If
-/// the clock was set behind the first few scans, it is these that are moved.
+/// the clock was set behind the first few scans, it is these that are moved. Nothing confirms the
+/// stamp of a lone scan before the first pause or behind the last one: it is dropped.
 class LidarTrack {
  public:
   /// What the other LiDARs tell.

@@ -101,8 +101,8 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.times.exchanged = 5;
   s.times.before_first_point = 6;
   EXPECT_EQ(s.MissingInput(),
-            "the first 6 of 100 scans have no point that can be used: of their time nothing is "
-            "known");
+            "the first 6 of 100 scans have no point that can be used: how the LiDAR moved then "
+            "is not known");
   s.times.before_first_point = 5;
   s.times.until_last_point = 95;
   EXPECT_EQ(s.MissingInput(), "");
