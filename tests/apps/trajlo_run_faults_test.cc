@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/apps/trajlo_run_testing.h"
+#include "tests/support/sanitizers.h"
 
 namespace trajlo::testing {
 namespace {
@@ -204,9 +205,7 @@ TEST_F(TrajloRunTest, APipeThatNobodyReadsIsFiveAndDoesNotHang) {
 }
 
 TEST_F(TrajloRunTest, TooLittleMemoryIsSixWithASentence) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers reserve more memory than there is";
-#endif
+  if (testing::kSanitized) GTEST_SKIP() << "sanitizers reserve more memory than there is";
   RoomRecording().Write(input());
   int failed = 0;
   for (const char* kilobytes : {"32000", "40000", "50000", "64000", "80000", "120000"}) {

@@ -16,7 +16,7 @@ std::vector<Eigen::Vector3d> SurfacePoints(int count, unsigned seed) {
   const Eigen::Vector3d half(20.0, 12.0, 5.0);
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < count; ++i) {
-    Eigen::Vector3d p(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
+    Eigen::Vector3d p = random.PlaceIn({1, 1, 1});
     Eigen::Index axis = 0;
     p.cwiseAbs().maxCoeff(&axis);
     p[axis] = p[axis] > 0 ? 1.0 : -1.0;

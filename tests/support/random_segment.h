@@ -11,7 +11,7 @@ namespace trajlo::testing {
 
 inline RegistrationPoint RandomPoint(Random* random, double alpha) {
   RegistrationPoint point;
-  point.p_body_m = random->Uniform(1, 40) * random->Direction();
+  point.p_body_m = random->Vector(1, 40);
   point.alpha = alpha;
   point.normal_world = random->Direction();
   point.weight = random->Uniform(0.1, 1.0);

@@ -35,7 +35,7 @@ inline Window MakeTestWindow(unsigned seed, int points_per_segment = 300) {
     }
     for (int i = 0; i < points_per_segment; ++i) {
       RegistrationPoint point;
-      point.p_body_m = random.Uniform(1, 20) * random.Direction();
+      point.p_body_m = random.Vector(1, 20);
       point.alpha = random.Uniform(0, 1);
       point.normal_world = random.Direction();
       const double outlier = random.Uniform(0, 1) < 0.1 ? random.Uniform(-1, 1) : 0.0;

@@ -30,8 +30,8 @@ LidarScan MakeScan(Random* random, std::int64_t from_ns, std::int64_t to_ns, int
   for (int i = 0; i < points; ++i) {
     const double share = random->Uniform(0.0, 1.0);
     const auto offset_ns = static_cast<std::int64_t>(share * static_cast<double>(to_ns - from_ns));
-    scan.points.push_back({(random->Uniform(1.0, 50.0) * random->Direction()).cast<float>(),
-                           static_cast<float>(i), from_ns + offset_ns});
+    scan.points.push_back(
+        {random->Vector(1.0, 50.0).cast<float>(), static_cast<float>(i), from_ns + offset_ns});
   }
   return scan;
 }

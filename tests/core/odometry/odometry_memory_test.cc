@@ -7,16 +7,11 @@
 #include <fstream>
 
 #include "core/odometry/odometry.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/synthetic_world.h"
 
 namespace trajlo {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 constexpr int kSweepsOfALap = 30;
 
@@ -38,7 +33,7 @@ double Resident_MB() {
 }
 
 TEST(OdometryMemory, LapsOfTheSameLoopAddNothing) {
-  if (kSanitized) GTEST_SKIP() << "sanitizers keep memory that was freed";
+  if (testing::kSanitized) GTEST_SKIP() << "sanitizers keep memory that was freed";
   testing::SyntheticWorld world;
   world.T_world_body = Loop;
   world.beams = 16;

@@ -388,7 +388,7 @@ TEST(Odometry, SaysThatItIsLostWhenTheWorldDisappears) {
     if (i < 10) return;
     testing::Random random(static_cast<unsigned>(i));
     for (LidarPoint& point : scan->points) {
-      point.xyz_m = (random.Uniform(20, 90) * random.Direction()).cast<float>();
+      point.xyz_m = random.Vector(20, 90).cast<float>();
     }
   });
   ASSERT_TRUE(run.odometry->lost_at_ns());

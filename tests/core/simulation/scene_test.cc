@@ -14,15 +14,17 @@ namespace {
 using Eigen::Vector3d;
 
 Vector3d RandomDirection(CounterRandom* random) {
-  return Vector3d(random->Gaussian(), random->Gaussian(), random->Gaussian()).normalized();
+  Vector3d direction;
+  for (double& component : direction) component = random->Gaussian();
+  return direction.normalized();
 }
 
 TEST(Scene, RaysHitAHollowCubeWhereTheFormulaSays) {
   const Scene cube = MakeHollowCube();
   CounterRandom random(1);
   for (int i = 0; i < 2000; ++i) {
-    const Vector3d origin(random.Uniform(-4.9, 4.9), random.Uniform(-4.9, 4.9),
-                          random.Uniform(-4.9, 4.9));
+    Vector3d origin;
+    for (double& coordinate : origin) coordinate = random.Uniform(-4.9, 4.9);
     const Vector3d direction = RandomDirection(&random);
     const auto hit = cube.CastRay(origin, direction, 0.0, 100.0);
     ASSERT_TRUE(hit);

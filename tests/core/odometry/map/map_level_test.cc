@@ -15,8 +15,8 @@ std::vector<Eigen::Vector3d> Floor(int count, double half, double roughness_m, u
   testing::Random random(seed);
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < count; ++i) {
-    points.emplace_back(random.Uniform(-half, half), random.Uniform(-half, half),
-                        random.Gaussian(roughness_m));
+    points.push_back(random.PlaceIn({half, half, 0.0}));
+    points.back().z() = random.Gaussian(roughness_m);
   }
   return points;
 }

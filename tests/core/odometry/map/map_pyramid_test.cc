@@ -27,7 +27,8 @@ TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
   testing::Random random(13);
   std::vector<Eigen::Vector3d> floor;
   for (int i = 0; i < 20000; ++i) {
-    floor.emplace_back(random.Uniform(-4, 4), random.Uniform(-4, 4), 0.2 + random.Gaussian(0.015));
+    floor.push_back(random.PlaceIn({4, 4, 0}));
+    floor.back().z() = 0.2 + random.Gaussian(0.015);
   }
   PlaneFitOptions no_wide;
   no_wide.max_wide_flatness = 0.0;
@@ -35,7 +36,7 @@ TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
   const Eigen::Vector3f ray(0.8, 0.0, -0.6);
   double tilt_wide = 0.0, tilt_fine = 0.0;
   for (int i = 0; i < 100; ++i) {
-    const Eigen::Vector3d query(random.Uniform(-2, 2), random.Uniform(-2, 2), 0.2);
+    const Eigen::Vector3d query = random.PlaceIn({2, 2, 0}) + 0.2 * Eigen::Vector3d::UnitZ();
     Plane plane = wide.FindPlane({query, ray});
     ASSERT_TRUE(plane.exists());
     EXPECT_GT(plane.scale, 1.0);
@@ -91,7 +92,8 @@ TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
   testing::Random random(13);
   std::vector<Eigen::Vector3d> points;
   for (double y = -1.0; y < 1.0; y += 0.01) {
-    points.emplace_back(5.0 + random.Uniform(0.0, 0.3), y, random.Gaussian(0.003));
+    const double x = 5.0 + random.Uniform(0.0, 0.3);
+    points.emplace_back(x, y, random.Gaussian(0.003));
   }
   for (double z : {-1.4, -0.7, 0.7, 1.4}) {
     for (double y = -2.0; y < 2.0; y += 0.03) {

@@ -21,9 +21,7 @@ std::vector<Eigen::Vector3d> RandomPoints(int count, double half_size,
   testing::Random random(seed);
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < count; ++i) {
-    points.push_back(center + Eigen::Vector3d(random.Uniform(-half_size, half_size),
-                                              random.Uniform(-half_size, half_size),
-                                              random.Uniform(-half_size, half_size)));
+    points.push_back(center + random.PlaceIn(Eigen::Vector3d::Constant(half_size)));
   }
   return points;
 }

@@ -18,8 +18,8 @@ TEST(VoxelIndex, IsAMapFromVoxelsThroughAdditionsAndErasures) {
   std::map<std::array<int, 3>, std::uint32_t> reference;
   const auto draw = [&] { return static_cast<int>(std::floor(random.Uniform(-9, 9))); };
   for (std::uint32_t i = 0; i < 200000; ++i) {
-    const VoxelKey key(draw(), draw(), draw());
-    const std::array<int, 3> k = {key.x(), key.y(), key.z()};
+    const std::array<int, 3> k = {draw(), draw(), draw()};  // In this order.
+    const VoxelKey key(k[0], k[1], k[2]);
     const VoxelIndex::Slot found = index.Find(key);
     const bool is_there = found != VoxelIndex::kNoSlot && !index[found].IsEmpty();
     ASSERT_EQ(is_there, reference.count(k) == 1);

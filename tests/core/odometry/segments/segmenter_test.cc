@@ -385,8 +385,9 @@ TEST(VoxelFilter, KeepsTheFirstPointOfEachCellWithItsTime) {
   std::uniform_real_distribution<float> coordinate(-20, 20);
   std::vector<SegmentPoint> points, kept;
   for (int i = 0; i < 20000; ++i) {
-    points.push_back({{coordinate(engine), coordinate(engine), coordinate(engine)},
-                      static_cast<float>(i) / 20000.0F});
+    SegmentPoint point = {{}, static_cast<float>(i) / 20000.0F};
+    for (float& c : point.p_body_m) c = coordinate(engine);
+    points.push_back(point);
   }
   VoxelFilter filter(1.7);
   for (int repeat = 0; repeat < 3; ++repeat) {

@@ -46,14 +46,14 @@ TEST(FindPlaces, FindsWhereASweepWasMeasuredAnywhereInTheRegion) {
   ThreadPool threads(1);
   testing::Random random(3);
   for (int draw = 0; draw < 5; ++draw) {
-    const Eigen::Vector3d t(random.Uniform(1, 6), random.Uniform(1, 10), random.Uniform(0.5, 2));
+    const Eigen::Vector3d t = Eigen::Vector3d(3.5, 5.5, 1.25) + random.PlaceIn({2.5, 4.5, 0.75});
     const double yaw_rad = random.Uniform(-0.9, 0.9);
     const SE3 truth(Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ())), t);
     std::vector<Eigen::Vector3d> sweep;
     for (std::size_t i = static_cast<std::size_t>(draw); i < room.size(); i += 7) {
       sweep.push_back(truth.Inverse() * room[i]);
     }
-    const Eigen::Vector3d aside(random.Uniform(-1.5, 1.5), random.Uniform(-1.5, 1.5), 0.5);
+    const Eigen::Vector3d aside = random.PlaceIn({1.5, 1.5, 0.0}) + 0.5 * Eigen::Vector3d::UnitZ();
     const auto places = FindPlaces(sweep, map, RegionAround(t + aside), 3, &threads);
     ASSERT_FALSE(places.empty());
     EXPECT_LT((places.front().t - truth.t).norm(), 0.6) << draw;

@@ -13,7 +13,7 @@ namespace {
 SegmentCloud RandomCloud(testing::Random* random) {
   SegmentCloud cloud;
   for (int i = 0; i < 200; ++i) {
-    const Eigen::Vector3d p = random->Uniform(0.5, 20.0) * random->Direction();
+    const Eigen::Vector3d p = random->Vector(0.5, 20.0);
     const auto alpha = static_cast<float>(random->Uniform(0.0, 1.0));
     cloud.map_points.push_back({p.cast<float>(), alpha});
     if (i % 4 == 0) cloud.registration_points.push_back(cloud.map_points.back());
@@ -42,8 +42,8 @@ TEST(Deskew, PutsThePointsWhereTheContinuousTrajectoryPutsThemIfTheTwistIsConsta
   for (int i = 0; i < 20; ++i) {
     const SE3 T_begin = random.Pose(50.0);
     Vector6d tau;
-    tau << random.Uniform(0.0, 3.0) * random.Direction(),
-        random.Uniform(0.0, 2.0) * random.Direction();
+    tau.head<3>() = random.Vector(0.0, 3.0);
+    tau.tail<3>() = random.Vector(0.0, 2.0);
     const SegmentCloud raw = RandomCloud(&random);
     SegmentCloud deskewed = raw;
     DeskewToEnd(tau, &deskewed);
