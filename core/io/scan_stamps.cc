@@ -65,7 +65,8 @@ std::optional<std::int64_t> StampOfName(const fs::path& file) {
   }
   // ROS tools write seconds and nanoseconds as two whole numbers, often without leading zeros.
   if (seconds.size() != 10 || rest.size() > 9) return {};
-  return *ParseDecimalNs(seconds, kNsPerSecond) + *ParseDecimalNs(rest, 1);
+  const auto whole_ns = ParseDecimalNs(seconds, kNsPerSecond);
+  return whole_ns ? std::optional(*whole_ns + *ParseDecimalNs(rest, 1)) : std::nullopt;
 }
 
 ScanStamps StampsOfNames(ScanListing* listing) {

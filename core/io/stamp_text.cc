@@ -11,6 +11,7 @@ namespace {
 
 // Half the range (until the year 2116), so that a difference of two stamps never overflows.
 constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max() / 2;
+constexpr int kFirstYear = 1824, kLastYear = 2115;
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
@@ -97,7 +98,7 @@ std::optional<std::int64_t> ParseDateTimeNs(std::string_view text) {
   const int day = Digits(text, 8, 2);
   const int hour = Digits(text, 11, 2);
   const int minute = Digits(text, 14, 2);
-  if (year < 1700 || year > 2200 || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 ||
+  if (year < kFirstYear || year > kLastYear || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 ||
       hour > 23 || minute < 0 || minute > 59 || !IsDigit(text[17])) {
     return {};
   }

@@ -11,11 +11,11 @@ namespace trajlo {
 /// Parses decimal text as nanoseconds without going through double: "1317042000.103499889",
 /// "1.036224e-01", "-0.5". `unit_ns` is what a one in the text means, a power of ten from 1 to 1e9.
 /// Digits beyond the nanosecond are rounded. Nothing if the text is no number or
-/// beyond the year 2116.
+/// farther from 0 than half the range, 146 years: differences of stamps never overflow.
 std::optional<std::int64_t> ParseDecimalNs(std::string_view text, std::int64_t unit_ns);
 
 /// Parses "2011-09-26 13:02:25.594360375" (a T in the middle and a Z at the end are accepted) as
-/// nanoseconds since 1970; the text is taken as UTC.
+/// nanoseconds since 1970; the text is taken as UTC. Nothing before 1824 or after 2115.
 std::optional<std::int64_t> ParseDateTimeNs(std::string_view text);
 
 /// What a one means in a stamp written as a whole number of that many digits, judged by the

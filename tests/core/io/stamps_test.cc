@@ -53,6 +53,16 @@ TEST(StampText, DatesOfKittiRawAreParsed) {
   EXPECT_FALSE(ParseDateTimeNs("2011-13-26 13:02:25.0").has_value());
 }
 
+TEST(StampText, DatesLieSoCloseThatTheirDifferencesAreNumbers) {
+  const auto first = ParseDateTimeNs("1824-01-01 00:00:00.0");
+  const auto last = ParseDateTimeNs("2115-12-31 23:59:59.9");
+  ASSERT_TRUE(first && last);
+  EXPECT_LT(*first, *last);
+  EXPECT_NEAR(static_cast<double>(*last - *first), 1e9 * 292.0 * 365.2425 * 86400.0, 1e14);
+  EXPECT_FALSE(ParseDateTimeNs("1711-09-26 13:02:25.6").has_value());  // found by fuzz_stamps
+  EXPECT_FALSE(ParseDateTimeNs("2116-01-01 00:00:00.0").has_value());
+}
+
 TEST(StampText, PrintingAndParsingAreInverse) {
   for (const std::int64_t t : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, kSecond,
                                std::int64_t{1600000000123456789}, std::int64_t{-1500000000}}) {
@@ -145,6 +155,11 @@ TEST_F(StampSearch, WhenAScanIsMissingTheIndexInTheNamesPicksTheLine) {
   }
   folder_.Write("timestamps.txt", "5.0\n6.0\n7.0\n8.0\n");
   EXPECT_THAT(Find().t_ns, ElementsAre(5 * kSecond, 6 * kSecond, 8 * kSecond));
+}
+
+TEST_F(StampSearch, NamesThatAreNoStampsInReachAreNone) {
+  folder_.Write("9999999999_5.bin", "");  // the year 2286
+  EXPECT_THAT(Find().t_ns, ElementsAre());
 }
 
 TEST_F(StampSearch, NamesOfSeveralPatternsLeaveOpenWhichStampIsWhose) {
