@@ -98,8 +98,8 @@ std::optional<std::int64_t> ParseDateTimeNs(std::string_view text) {
   const int day = Digits(text, 8, 2);
   const int hour = Digits(text, 11, 2);
   const int minute = Digits(text, 14, 2);
-  if (year < kFirstYear || year > kLastYear || month < 1 || month > 12 || day < 1 || day > 31 || hour < 0 ||
-      hour > 23 || minute < 0 || minute > 59 || !IsDigit(text[17])) {
+  if (year < kFirstYear || year > kLastYear || month < 1 || month > 12 || day < 1 || day > 31 ||
+      hour < 0 || hour > 23 || minute < 0 || minute > 59 || !IsDigit(text[17])) {
     return {};
   }
   const auto seconds_ns = ParseDecimalNs(text.substr(17), 1'000'000'000);

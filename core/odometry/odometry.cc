@@ -55,8 +55,7 @@ void Odometry::Take(SegmentCloud cloud) {
     window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
     return;
   }
-  const bool has_map = support_.was_supported() || map_.size() >= kFewestToBegin;
-  if ((cloud.is_gap || !has_map) && !search_) BeginSearch();
+  if ((cloud.is_gap || !HasMap()) && !search_) BeginSearch();
   if (!search_) {
     Step(std::move(cloud));
     return;
@@ -77,13 +76,16 @@ void Odometry::Start(const SegmentCloud& cloud) {
   BeginMap(cloud, SE3(), tau, 0);
 }
 
+/// Whether there is something that points can agree with.
+bool Odometry::HasMap() const { return support_.was_supported() || map_.size() >= kFewestToBegin; }
+
 /// A map of one interval alone, and a window that begins where it ends.
 void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau,
                         unsigned flags) {
   const double duration_s = 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns);
-  if (duration_s > 0.0) Settle({cloud.begin_ns, T_begin, flags}, Matrix6d::Zero());
   const SE3 T_end = T_begin * se3::Exp(tau);
   EnterMap(cloud, T_begin, T_end, &threads_, &map_);
+  if (duration_s > 0.0) Settle({cloud.begin_ns, T_begin, flags}, Matrix6d::Zero());
   window_ = MakeWindow(cloud.end_ns, T_end);
   window_.begin_flags = flags;
   if (duration_s > 0.0) {
@@ -127,11 +129,11 @@ void Odometry::Step(SegmentCloud cloud) {
   } else {
     Revert(predicted, &window_);
   }
+  Describe(window_, &statistics);
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
   doubt_.Update(window_, statistics, motion_prior_.density());
   statistics.flags |= doubt_.flags();
   window_.segments.back().flags = statistics.flags;
-  Describe(window_, &statistics);
   const int to_keep = SegmentsToKeep();
   while (window_.size() > to_keep) Leave(&statistics);
   Report(&statistics);
@@ -221,7 +223,9 @@ void Odometry::SettleFront() {
   Settle({window_.begin_ns, window_.T_world_begin, flags}, covariance);
 }
 
+/// The trajectory begins where the map does: what was before it, nothing tells.
 void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
+  if (trajectory_.empty() && !HasMap()) return;
   trajectory_.Append(pose);
   attitude_.Add(pose.T_world_body.q);
   if (on_pose_) on_pose_(pose, motion_prior_.covariance_scale() * covariance);

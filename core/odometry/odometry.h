@@ -78,6 +78,7 @@ class Odometry {
   void Resume(const ReturnSweep& sweep);
   void GetLost(const ReturnSweep& sweep);
   void BeginAgain(const ReturnSweep& sweep);
+  bool HasMap() const;
   bool IsBlind() const;
   void TakeBackAndSearch(const std::vector<SE3>& predicted);
   void NoteSupport();

@@ -67,7 +67,8 @@ void Odometry::Search(bool is_last) {
 /// There was nothing yet that could be found.
 void Odometry::BeginAgain(const ReturnSweep& sweep) {
   SettleWindow(sweep.cloud.begin_ns);
-  BeginMap(sweep.cloud, window_.T_world_begin, sweep.tau, kFlagGap);
+  const unsigned flags = trajectory_.empty() ? 0U : kFlagGap;
+  BeginMap(sweep.cloud, window_.T_world_begin, sweep.tau, flags);
   search_.reset();
 }
 

@@ -28,9 +28,10 @@ WindowRow MakeRow(const WindowStatistics& window) {
 
 std::string FlagNames(unsigned flags) {
   static const std::vector<std::pair<unsigned, const char*>> names = {
-      {kFlagNoPoints, "no_points"},    {kFlagGap, "gap"},
-      {kFlagReverted, "reverted"},     {kFlagNotConverged, "not_converged"},
-      {kFlagDegenerate, "degenerate"}, {kFlagLost, "lost"},
+      {kFlagNoPoints, "no_points"},     {kFlagGap, "gap"},
+      {kFlagReverted, "reverted"},      {kFlagNotConverged, "not_converged"},
+      {kFlagDegenerate, "degenerate"},  {kFlagLost, "lost"},
+      {kFlagFewInliers, "few_inliers"},
   };
   std::string text;
   for (const auto& [flag, name] : names) {

@@ -8,7 +8,8 @@ import numpy as np
 from trajlo_batch import results
 from trajlo_batch.places import read_json_if
 
-FLAGS = ("no_points", "gap", "reverted", "not_converged", "degenerate", "lost")
+FLAGS = ("no_points", "gap", "reverted", "not_converged", "degenerate", "lost",
+         "few_inliers")
 COLUMNS = {"points": "points_per_window", "rounds": "rounds_per_window",
            "iterations": "iterations_per_window"}
 LEFT_OUT = ("suite", "configuration", "degenerate", "sequence", "group", "seed", "inlier_share",

@@ -397,6 +397,28 @@ TEST(Odometry, SaysThatItIsLostWhenTheWorldDisappears) {
   ExpectFinite(run.odometry->trajectory());
 }
 
+TEST(Odometry, FlagsPosesAtOnceIfItWouldBeLostWereItToGoOn) {
+  SyntheticWorld world;
+  // For the last 0.6 s, four points of five are those of another world.
+  const RunResult run = RunOn(world, RoomOptions(), 40, [&](int i, LidarScan* scan) {
+    if (i < 34) return;
+    testing::Random random(static_cast<unsigned>(i));
+    for (std::size_t k = 0; k < scan->points.size(); ++k) {
+      if (k % 5 != 0) scan->points[k].xyz_m = random.Vector(20, 90).cast<float>();
+    }
+  });
+  EXPECT_FALSE(run.odometry->lost_at_ns());
+  constexpr double kWindow_s = 0.12;
+  for (const ControlPose& pose : run.odometry->trajectory().poses()) {
+    const double t_s = 1e-9 * static_cast<double>(pose.t_ns - world.start_ns);
+    if (t_s < 3.4) {
+      EXPECT_EQ(pose.flags & kFlagFewInliers, 0U) << t_s;
+    } else if (t_s > 3.4 + kWindow_s) {
+      EXPECT_EQ(pose.flags & kFlagFewInliers, +kFlagFewInliers) << t_s;
+    }
+  }
+}
+
 TEST(Odometry, NothingAndOneScanAreValidRecordings) {
   SyntheticWorld world;
   Odometry nothing(RoomOptions());
