@@ -87,10 +87,10 @@ FolderContent Look(const fs::path& folder) {
   return content;
 }
 
-ScanListing MakeListing(const fs::path& folder, FolderContent content) {
+ScanListing MakeListing(const fs::path& folder, const FolderContent& content) {
   ScanListing listing;
   listing.folder = folder;
-  for (auto& [extension, files] : content.scans_by_extension) {
+  for (const auto& [extension, files] : content.scans_by_extension) {
     if (files.size() > listing.files.size()) {
       listing.files = files;
       listing.extension = extension;

@@ -21,6 +21,7 @@ std::vector<std::unique_ptr<Ros1BagReader>> OpenAll(
     const std::vector<std::filesystem::path>& bags) {
   std::vector<std::unique_ptr<Ros1BagReader>> readers;
   constexpr int kAllCores = 0;
+  readers.reserve(bags.size());
   for (const auto& bag : bags) readers.push_back(std::make_unique<Ros1BagReader>(bag, kAllCores));
   return readers;
 }

@@ -48,8 +48,10 @@ void PointCounter::Add(const PointTable& table, const LidarScan& scan) {
   if (rings == nullptr) return;
   has_rings_ = true;
   VisitColumn(table, *rings, 0, table.count, [&](std::size_t, auto value) {
-    const auto ring = static_cast<std::uint64_t>(value);
-    if (ring < rings_.size()) rings_[ring] = true;
+    const auto ring = static_cast<double>(value);  // Of any type, and damaged files have any value.
+    if (ring >= 0.0 && ring < static_cast<double>(rings_.size())) {
+      rings_[static_cast<std::size_t>(ring)] = true;
+    }
   });
 }
 

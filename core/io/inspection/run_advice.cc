@@ -109,12 +109,12 @@ bool HasStartStamps(const std::vector<CloudInspection>& clouds) {
 void AddExtrinsicRemarks(const std::vector<CloudInspection>& clouds, bool is_folder,
                          RunAdvice* advice) {
   if (clouds.size() == 1) {
-    advice->remarks.push_back(
+    advice->remarks.emplace_back(
         "poses will be those of the LiDAR unless sensor.T_body_lidar says where it sits on the "
         "body");
     return;
   }
-  advice->remarks.push_back(
+  advice->remarks.emplace_back(
       "where the LiDARs sit is not known, and the command will be refused without it: give "
       "sensor.T_body_lidar, one pose for each in this order, in a config of your own "
       "(--config=...,rig.yaml)");
@@ -129,12 +129,12 @@ void AddTimeRemarks(const CloudInspection& cloud, const std::string& config, Run
     advice->remarks.push_back("say how the point times of " + cloud.topic +
                               " are meant, or the command will be refused");
   } else if (config == "kitti") {
-    advice->remarks.push_back(
+    advice->remarks.emplace_back(
         "folder and field of view are those of KITTI; the configuration takes the scans for motion-"
         "corrected and turns every ray up by 0.205 degrees, which is right for KITTI's own "
         "recordings only (--set sensor.vertical_correction_deg=0)");
   } else if (!cloud.convention.HasPointTimes()) {
-    advice->remarks.push_back(
+    advice->remarks.emplace_back(
         "the points have no times; if the scans are motion-corrected, add --set "
         "input.point_time=none,window.segments=3");
   }
@@ -169,7 +169,7 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
   }
   if (dataset != nullptr && dataset->stamps_at_end && HasStartStamps(clouds)) {
     set("input.stamp_at=start");
-    advice.remarks.push_back(
+    advice.remarks.emplace_back(
         "stamps of this dataset mark the end of the sweep, but by the evidence these mark its "
         "start: check input.stamp_at");
   }

@@ -60,6 +60,10 @@ constexpr char kQuaternion[] =
     "float64 z\n"
     "float64 w\n";
 
+constexpr char kPoseStamped[] =
+    "MSG: geometry_msgs/PoseStamped\n"
+    "std_msgs/Header header\n"
+    "geometry_msgs/Pose pose\n";
 constexpr char kPose[] =
     "MSG: geometry_msgs/Pose\n"
     "geometry_msgs/Point position\n"
@@ -184,14 +188,11 @@ const MessageDescription& OdometryDescription() {
 }
 
 const MessageDescription& PathDescription() {
-  static const MessageDescription description{"nav_msgs/Path", "6227e2b7e9cce15051f669a5e197bbf7",
-                                              Join("std_msgs/Header header\n"
-                                                   "geometry_msgs/PoseStamped[] poses\n",
-                                                   {kHeader,
-                                                    "MSG: geometry_msgs/PoseStamped\n"
-                                                    "std_msgs/Header header\n"
-                                                    "geometry_msgs/Pose pose\n",
-                                                    kPose, kPoint, kQuaternion})};
+  static const MessageDescription description{
+      "nav_msgs/Path", "6227e2b7e9cce15051f669a5e197bbf7",
+      Join("std_msgs/Header header\n"
+           "geometry_msgs/PoseStamped[] poses\n",
+           {kHeader, kPoseStamped, kPose, kPoint, kQuaternion})};
   return description;
 }
 

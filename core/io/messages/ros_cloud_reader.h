@@ -16,7 +16,7 @@ namespace trajlo {
 /// The point clouds among the messages of a ROS bag: topics of the types that IsCloudType names.
 /// A message that cannot be decoded is counted as lost, and the report has one sentence a topic
 /// about such messages; whatever else is odd about a topic's messages is reported once.
-class RosCloudReader : public CloudMessageReader {
+class RosCloudReader final : public CloudMessageReader {
  public:
   /// `path` is for the report's sentences.
   RosCloudReader(std::unique_ptr<RawMessageReader> reader, std::filesystem::path path);

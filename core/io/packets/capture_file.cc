@@ -62,7 +62,7 @@ void CaptureFile::Open() {
                      "Give a .pcap or .pcapng file (not compressed), or Velodyne payloads of 1206 "
                      "bytes one behind the other.");
   }
-  file.release();  // libpcap closes it now.
+  static_cast<void>(file.release());  // libpcap closes it now.
   link_type_ = pcap_datalink(capture_.get());
   if (!IsKnownLinkType(link_type_)) {
     const char* name = pcap_datalink_val_to_name(link_type_);

@@ -34,7 +34,7 @@ namespace trajlo {
 ///
 /// Throws InputError when the file is no capture, or has no sweeps that can be read: the message
 /// says what is there, and which metadata are missing.
-class PacketCloudReader : public CloudMessageReader {
+class PacketCloudReader final : public CloudMessageReader {
  public:
   explicit PacketCloudReader(const std::filesystem::path& path, const PacketOptions& options = {});
 

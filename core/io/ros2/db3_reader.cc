@@ -13,8 +13,8 @@
 
 namespace trajlo {
 
-Db3Reader::Db3Reader(const std::filesystem::path& path, std::filesystem::path shown)
-    : shown_(shown.empty() ? path : std::move(shown)),
+Db3Reader::Db3Reader(const std::filesystem::path& path, const std::filesystem::path& shown)
+    : shown_(shown.empty() ? path : shown),
       file_(path, shown_),
       // rosbag2 keeps an index of the timestamps: SQLite walks it, and only numbers are sorted in a
       // file that has none. The messages themselves never enter a sort.

@@ -16,10 +16,10 @@ namespace trajlo {
 /// holds one message. Of a file that is cut off or broken comes what SQLite still finds: rows that
 /// cannot be read are skipped and counted, and where the index of times is broken, reading goes on
 /// in the order of the rows.
-class Db3Reader : public RawMessageReader {
+class Db3Reader final : public RawMessageReader {
  public:
   /// `shown` is the name for messages to the user, if it is not `path`.
-  explicit Db3Reader(const std::filesystem::path& path, std::filesystem::path shown = {});
+  explicit Db3Reader(const std::filesystem::path& path, const std::filesystem::path& shown = {});
   Db3Reader(const Db3Reader&) = delete;
   Db3Reader& operator=(const Db3Reader&) = delete;
 

@@ -28,8 +28,8 @@ bool HasEndMark(const RandomAccessFile& file) {
 
 }  // namespace
 
-McapReader::McapReader(const std::filesystem::path& path, std::filesystem::path shown)
-    : shown_(shown.empty() ? path : std::move(shown)) {
+McapReader::McapReader(const std::filesystem::path& path, const std::filesystem::path& shown)
+    : shown_(shown.empty() ? path : shown) {
   const auto file = OpenMcap(path, shown_);
   has_end_mark_ = HasEndMark(*file);
   index_ = ReadMcapIndex(file, shown_);

@@ -17,10 +17,10 @@ namespace trajlo {
 /// not at all, ROS 2's messages or ROS 1's; also of a file that its recorder did not finish.
 /// They come in the order of the file, which is the order in which they were recorded: log times
 /// may step back by the little that publishers overlap. McapStream says what damage costs.
-class McapReader : public RawMessageReader {
+class McapReader final : public RawMessageReader {
  public:
   /// `shown` is the name for messages to the user, if it is not `path`.
-  explicit McapReader(const std::filesystem::path& path, std::filesystem::path shown = {});
+  explicit McapReader(const std::filesystem::path& path, const std::filesystem::path& shown = {});
 
   const std::vector<Topic>& topics() const override { return index_.topics.topics(); }
   void Select(const std::vector<std::size_t>& topics) override;

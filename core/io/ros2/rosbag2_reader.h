@@ -15,7 +15,7 @@ namespace trajlo {
 /// after a killed recorder) whose files are .db3 or .mcap, or one such file; each may be compressed
 /// as a whole (.zstd), and is then unpacked into the folder for temporary files while it is read.
 /// A file that is missing or unreadable is reported and passed over.
-class Rosbag2Reader : public RawMessageReader {
+class Rosbag2Reader final : public RawMessageReader {
  public:
   /// Takes a file or a folder.
   explicit Rosbag2Reader(const std::filesystem::path& path);

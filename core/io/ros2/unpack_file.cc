@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <stdlib.h>
 #include <unistd.h>
 #include <zstd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 

@@ -24,6 +24,15 @@ constexpr double kWindows = 20.0;
 /// their planes. Rotations count at a distance of 2.2 m.
 constexpr double kMoved_m = kOnPlane_m;
 constexpr double kMoved_rad = 0.45 * kOnPlane_m;
+/// A segment that is so many times as long as the one before spans a pause: two scans are missing.
+constexpr double kPause = 2.5;
+
+/// Whether the newest segment is much longer than the one before: nothing was measured within it.
+bool IsBehindPause(const Window& window) {
+  if (window.size() < 2) return false;
+  const Segment& before = window.segments[window.segments.size() - 2];
+  return window.segments.back().Duration_s() > kPause * before.Duration_s();
+}
 
 }  // namespace
 
@@ -46,7 +55,12 @@ MapAgreement AgreementOf(const Window& window, const Segment& segment) {
 
 void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics,
                         const Vector6d& density) {
-  const unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
+  unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
+  // At the right place behind a pause, a window settles.
+  const bool is_unsettled = (statistics.flags & kFlagNotConverged) != 0;
+  if (is_unsettled && IsBehindPause(window) && MayHaveMoved(window.EndNs(), density)) {
+    unheld |= kFlagGap;
+  }
   // At first, points that agree and leave a direction open are no reason for doubt.
   const bool began = held_until_ns_ || (unheld & ~kFlagDegenerate) != 0;
   if (unheld == 0 || !began) held_until_ns_ = window.EndNs();

@@ -22,9 +22,10 @@ struct MapAgreement {
 MapAgreement AgreementOf(const Window& window, const Segment& segment);
 
 /// Doubts the place of a body that its points did not hold for so long that it may have left the
-/// planes it was on. It may settle on planes to which it does not belong, and a map that grew there
-/// would prove it right. So poses stay flagged, and the map does not grow, until the points agree
-/// with it in all directions as well as they did before.
+/// planes it was on; also behind a pause, if the first window there does not settle. It may settle
+/// on planes to which it does not belong, and a map that grew there would prove it right. So poses
+/// stay flagged, and the map does not grow, until the points agree with it in all directions as
+/// well as they did before.
 class DoubtWatch {
  public:
   /// After `window` was judged; `density` is that of the acceleration, see MotionPrior.

@@ -238,7 +238,7 @@ void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors*
     Gather(blocks[1 + i], size * kFaces[i].cast<float>(), query, &candidates);
   }
   neighbors->origin_world = corner;
-  TakeNearest(candidates, std::min(k, kMaxNeighbors), neighbors);
+  TakeNearest(candidates, std::clamp(k, 1, kMaxNeighbors), neighbors);
 }
 
 void VoxelHashMap::TakeNearest(const Candidates& candidates, int k, Neighbors* neighbors) {

@@ -40,7 +40,7 @@ class VoxelHashMap {
   /// given anew.
   void RemoveFar(const Eigen::Vector3d& center_world, std::vector<std::uint32_t>* changed);
 
-  /// The `k` <= kMaxNeighbors nearest points of the seven voxels around `query_world`.
+  /// The `k` nearest points, 1 to kMaxNeighbors, of the seven voxels around `query_world`.
   void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const;
 
   VoxelKey KeyOf(const Eigen::Vector3d& p) const { return VoxelAt(p, inverse_size_); }

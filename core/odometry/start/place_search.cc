@@ -38,7 +38,7 @@ class Occupancy {
     std::vector<Cell> occupied;
     map.ForEachPoint([&](const Eigen::Vector3d& p) {
       if ((p - center).norm() > reach_m) return;
-      occupied.push_back((p / cell_m_).array().floor().cast<int>());
+      occupied.emplace_back((p / cell_m_).array().floor().cast<int>());
     });
     if (occupied.empty()) return;
     Cell high = occupied.front();
@@ -127,6 +127,7 @@ struct TurnedSweep {
 
 double MedianRange(const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> ranges;
+  ranges.reserve(points.size());
   for (const Eigen::Vector3d& p : points) ranges.push_back(p.norm());
   const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
   std::nth_element(ranges.begin(), middle, ranges.end());
@@ -177,7 +178,8 @@ class PlaceSearch {
         TurnedSweep turned = {
             Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, region_.vertical_world)) * q, {}};
         for (const Eigen::Vector3d& p : points_) {
-          turned.cells.push_back((turned.q_world_body * p / cell_m_).array().floor().cast<int>());
+          turned.cells.emplace_back(
+              (turned.q_world_body * p / cell_m_).array().floor().cast<int>());
         }
         turned_.push_back(std::move(turned));
       }

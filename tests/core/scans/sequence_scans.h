@@ -38,6 +38,7 @@ inline int NumberOf(const LidarScan& scan) {
 /// Stamps of a LiDAR at 10 Hz.
 inline std::vector<std::int64_t> Regular(int count) {
   std::vector<std::int64_t> stamps;
+  stamps.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) stamps.push_back(kStart + i * kPeriod);
   return stamps;
 }

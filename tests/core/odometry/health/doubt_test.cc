@@ -156,6 +156,24 @@ TEST(DoubtWatch, LastsUntilAWindowHasSettledOnTheMap) {
   EXPECT_EQ(body.Add(0, kNewPart), 0U) << "a new part of the world, from one that is known";
 }
 
+TEST(DoubtWatch, BeginsBehindAPauseIfTheWindowThereDoesNotSettle) {
+  for (const bool is_pause : {false, true}) {
+    for (const bool settles : {false, true}) {
+      Watched body;
+      body.Add(0);  // Until 0.03 s.
+      Window window = Standing({}, 0.03);
+      window.segments.push_back(window.segments[0]);
+      window.segments[1].cloud.begin_ns = 30'000'000;
+      window.segments[1].cloud.end_ns = is_pause ? 130'000'000 : 100'000'000;
+      const unsigned flags = body.Add(settles ? 0U : +kFlagNotConverged, window, settles);
+      EXPECT_EQ(flags, is_pause && !settles ? +kFlagGap : 0U);
+      if (flags == 0) continue;
+      EXPECT_EQ(body.Add(0, kWrongWall), +kFlagGap);
+      EXPECT_EQ(body.Add(0), 0U);
+    }
+  }
+}
+
 TEST(DoubtWatch, EverySegmentOfTheWindowMustAgree) {
   Watched body = InDoubt();
   Window window = Standing({}, 10.0);
