@@ -89,7 +89,7 @@ compiled() {
 }
 tidy() {
   compiled "${to_tidy[@]}" |
-    xargs -n 1 -P "$jobs" clang-tidy-14 -p "$build" --quiet --warnings-as-errors='*' 2>&1 |
+    xargs --no-run-if-empty -n 1 -P "$jobs" clang-tidy-14 -p "$build" --quiet --warnings-as-errors='*' 2>&1 |
     grep -v 'warnings generated\.$'
   [[ "${PIPESTATUS[1]}" -eq 0 ]]
 }

@@ -226,6 +226,7 @@ void Odometry::SettleFront() {
 /// The trajectory begins where the map does: what was before it, nothing tells.
 void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
   if (trajectory_.empty() && !HasMap()) return;
+  if (trajectory_.empty()) segments_.NoteFirstPose(pose.t_ns);
   trajectory_.Append(pose);
   attitude_.Add(pose.T_world_body.q);
   if (on_pose_) on_pose_(pose, motion_prior_.covariance_scale() * covariance);

@@ -44,7 +44,7 @@ Json InputJson(const RunSummary& s) {
             {"clock_apart", s.times.apart},
             {"points_exchanged", s.times.exchanged},
             {"odd_point_times", s.times.odd_point_times},
-            {"unseen_at_the_start", s.times.before_first_point},
+            {"unseen_at_the_start", s.times.before_first_pose},
             {"unseen_at_the_end", s.times.Unseen()}}},
           {"clock_steps", s.times.clock_steps},
           {"points",

@@ -73,10 +73,11 @@ std::string RunSummary::MissingInput() const {
     parts.push_back(std::to_string(times.exchanged) + " of " + std::to_string(times.scans) +
                     " scans seem to be out of order, by what they show");
   }
-  if (static_cast<double>(times.before_first_point) > kSizeableShare * scans) {
-    parts.push_back("the first " + std::to_string(times.before_first_point) + " of " +
-                    std::to_string(times.scans) +
-                    " scans have no point that can be used: how the LiDAR moved then is not known");
+  if (static_cast<double>(times.before_first_pose) > kSizeableShare * scans) {
+    parts.push_back(
+        "the first " + std::to_string(times.before_first_pose) + " of " +
+        std::to_string(times.scans) +
+        " scans show nothing, or too little, of the world: the trajectory begins behind them");
   }
   if (static_cast<double>(times.Unseen()) > kSizeableShare * scans) {
     parts.push_back("the last " + std::to_string(times.Unseen()) + " of " +

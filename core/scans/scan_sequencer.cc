@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <string>
+#include <utility>
 
 namespace trajlo {
 namespace {
@@ -53,6 +55,7 @@ void ScanSequencer::Add(const LidarScan& scan) {
   if (lidar >= tracks_.size()) {
     tracks_.resize(lidar + 1);
     is_apart_.resize(lidar + 1, false);
+    before_pose_.resize(lidar + 1);
   }
   const std::int64_t arrival = report_.scans++;
   LidarTrack& track = tracks_[lidar];
@@ -147,7 +150,21 @@ void ScanSequencer::Release() {
 
 void ScanSequencer::Hand(const LidarScan& scan, std::int64_t arrival) {
   handed_on_arrival_ = arrival;
+  if (!has_pose_) {
+    before_pose_[static_cast<std::size_t>(scan.lidar_id)].push_back({scan.stamp_ns, arrival});
+  }
   hand_on_(scan);
+}
+
+void ScanSequencer::NoteFirstPose(std::int64_t t_ns) {
+  has_pose_ = true;
+  std::int64_t first = handed_on_arrival_;
+  for (const std::vector<Sweep>& sweeps : std::exchange(before_pose_, {})) {
+    const auto behind = std::find_if(sweeps.begin(), sweeps.end(),
+                                     [&](const Sweep& sweep) { return sweep.stamp_ns > t_ns; });
+    if (behind != sweeps.begin()) first = std::min(first, std::prev(behind)->arrival);
+  }
+  report_.before_first_pose = first;
 }
 
 void ScanSequencer::Describe(std::size_t lidar) {

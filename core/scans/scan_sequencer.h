@@ -36,9 +36,10 @@ class ScanSequencer {
 
   /// A point of the scan that is being handed on is of use.
   void NoteUse() {
-    if (report_.until_last_point == 0) report_.before_first_point = handed_on_arrival_;
     report_.until_last_point = std::max(report_.until_last_point, handed_on_arrival_ + 1);
   }
+  /// The trajectory begins at this time: what was seen before did not tell how the LiDAR moved.
+  void NoteFirstPose(std::int64_t t_ns);
 
   const TimeReport& report() const { return report_; }
 
@@ -49,6 +50,9 @@ class ScanSequencer {
     std::int64_t shift_ns = 0;
   };
   using Queue = std::deque<std::unique_ptr<Entry>>;
+  struct Sweep {
+    std::int64_t stamp_ns, arrival;
+  };
 
   void Judge(std::size_t lidar, bool is_final);
   void Apply(const Judgement& judgement);
@@ -65,6 +69,8 @@ class ScanSequencer {
   std::int64_t handed_on_arrival_ = 0;  ///< Of the scan that was handed on last.
   std::vector<LidarTrack> tracks_;
   std::vector<bool> is_apart_;
+  bool has_pose_ = false;
+  std::vector<std::vector<Sweep>> before_pose_;  ///< For each LiDAR, what was handed on until then.
   std::size_t first_lidar_ = 0;
   Queue queue_;  ///< In the order in which they are to be handed on.
 };

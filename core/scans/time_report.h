@@ -26,8 +26,8 @@ struct TimeReport {
   std::int64_t points = 0;       ///< Of the dropped scans, and those far from their scan's time.
   std::int64_t odd_point_times = 0;  ///< Scans with one time for all points where others have more.
   std::int64_t exchanged = 0;  ///< Of scans that were handed on: seem to have each other's points.
-  std::int64_t before_first_point = 0;  ///< Scans before the first one with a point of use.
-  std::int64_t until_last_point = 0;    ///< Scans up to the last one with a point of use.
+  std::int64_t before_first_pose = 0;  ///< Scans before the one in which the trajectory begins.
+  std::int64_t until_last_point = 0;   ///< Scans up to the last one with a point of use.
 
   /// One LiDAR begins later than another, and ends as much later; or their clocks run apart.
   bool clocks_may_differ = false;

@@ -31,6 +31,9 @@ class SegmentStream {
   /// while the segments of that scan are handed on.
   void OnScan(std::function<void(const LidarScan&)> callback) { on_scan_ = std::move(callback); }
 
+  /// The trajectory begins at this time.
+  void NoteFirstPose(std::int64_t t_ns) { sequencer_.NoteFirstPose(t_ns); }
+
   PointCounts point_counts() const;
   const TimeReport& time_report() const { return sequencer_.report(); }
   /// What the segments took that were handed on since the last call.

@@ -99,11 +99,11 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.times.exchanged = 6;
   EXPECT_EQ(s.MissingInput(), "6 of 100 scans seem to be out of order, by what they show");
   s.times.exchanged = 5;
-  s.times.before_first_point = 6;
+  s.times.before_first_pose = 6;
   EXPECT_EQ(s.MissingInput(),
-            "the first 6 of 100 scans have no point that can be used: how the LiDAR moved then "
-            "is not known");
-  s.times.before_first_point = 5;
+            "the first 6 of 100 scans show nothing, or too little, of the world: the trajectory "
+            "begins behind them");
+  s.times.before_first_pose = 5;
   s.times.until_last_point = 95;
   EXPECT_EQ(s.MissingInput(), "");
   s.times.until_last_point = 94;

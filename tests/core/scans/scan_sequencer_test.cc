@@ -189,15 +189,35 @@ TEST(ScanSequencer, CountsTheScansAfterTheLastOneOfUse) {
   EXPECT_EQ(sequencer.report().Unseen(), 20);
 }
 
-TEST(ScanSequencer, CountsTheScansBeforeTheFirstOneOfUse) {
+TEST(ScanSequencer, CountsTheScansBeforeTheFirstPose) {
+  // The first two have no points. The pose is found when more scans have come, and lies in a sweep.
+  std::vector<LidarScan> scans = WithStamps(Regular(20));
+  for (std::size_t i = 0; i < 2; ++i) scans[i].points.clear();
+  for (const std::int64_t late : {0, 70}) {
+    int handed_on = 0;
+    ScanSequencer sequencer(0.5, [&](const LidarScan&) {
+      if (++handed_on == 10) sequencer.NoteFirstPose(scans[7].stamp_ns + late * kMs);
+    });
+    for (const LidarScan& scan : scans) sequencer.Add(scan);
+    sequencer.Finish();
+    EXPECT_EQ(sequencer.report().before_first_pose, 7);
+  }
+}
+
+TEST(ScanSequencer, ThePoseOfTheFirstScansOfTwoLidarsHasNoneBefore) {
+  std::vector<LidarScan> scans;
+  for (const LidarScan& scan : WithStamps(Regular(20))) {
+    scans.push_back(scan);
+    scans.push_back(scan);
+    scans.back().lidar_id = 1;
+  }
   int handed_on = 0;
   ScanSequencer sequencer(0.5, [&](const LidarScan&) {
-    if (++handed_on == 8 || handed_on == 12) sequencer.NoteUse();
+    if (++handed_on == 12) sequencer.NoteFirstPose(scans[0].stamp_ns);
   });
-  for (const LidarScan& scan : WithStamps(Regular(20))) sequencer.Add(scan);
+  for (const LidarScan& scan : scans) sequencer.Add(scan);
   sequencer.Finish();
-  EXPECT_EQ(sequencer.report().before_first_point, 7);
-  EXPECT_EQ(sequencer.report().Unseen(), 8);
+  EXPECT_EQ(sequencer.report().before_first_pose, 0);
 }
 
 TEST(ScanSequencer, AnyStampsGiveIncreasingTimesAndEveryScanIsAccountedFor) {
