@@ -2,27 +2,11 @@
 #pragma once
 
 #include <atomic>
-#include <string>
-#include <vector>
 
 #include "apps/exit_code.h"
-#include "core/config/config.h"
-#include "core/report/trajectory_sampler.h"
+#include "apps/run/run_request.h"
 
 namespace trajlo {
-
-/// What the command line of trajlo_run asks for.
-struct RunRequest {
-  std::vector<std::string> inputs;  ///< See OpenRecording().
-  std::string output;
-  RunConfig config;
-  SamplingOptions sampling;
-  bool covariance = false;  ///< Write covariance.csv, too.
-  bool view = true;         ///< Write view.ply, too.
-  bool overwrite = false;
-  bool quiet = false;  ///< Only warnings and errors are printed.
-  std::vector<std::string> command_line;
-};
 
 /// Reads the recording, estimates, and writes the results while it goes on. Problems are printed
 /// to stderr, and what was achieved until then is kept. `stop` ends the reading early.

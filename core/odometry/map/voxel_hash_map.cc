@@ -238,10 +238,11 @@ void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors*
     Gather(blocks[1 + i], size * kFaces[i].cast<float>(), query, &candidates);
   }
   neighbors->origin_world = corner;
-  TakeNearest(candidates, std::clamp(k, 1, kMaxNeighbors), neighbors);
+  TakeNearest(candidates, k, neighbors);
 }
 
-void VoxelHashMap::TakeNearest(const Candidates& candidates, int k, Neighbors* neighbors) {
+void VoxelHashMap::TakeNearest(const Candidates& candidates, int wanted, Neighbors* neighbors) {
+  const int k = std::clamp(wanted, 1, kMaxNeighbors);
   // Sorted by insertion. The bits of a positive float are in the order of its value, and the index
   // below them decides between equals.
   std::uint64_t best[kMaxNeighbors];

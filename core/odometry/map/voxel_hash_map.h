@@ -78,7 +78,7 @@ class VoxelHashMap {
   void DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed);
   void Gather(std::uint32_t block, const Eigen::Vector3f& shift, const Eigen::Vector3f& query,
               Candidates* candidates) const;
-  static void TakeNearest(const Candidates& candidates, int k, Neighbors* neighbors);
+  static void TakeNearest(const Candidates& candidates, int wanted, Neighbors* neighbors);
 
   double voxel_size_, inverse_size_, spacing_, radius_;
   std::uint32_t points_of_site_;

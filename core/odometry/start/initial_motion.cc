@@ -41,7 +41,7 @@ constexpr double kWeakShare = 0.02;
 /// Planes whose normals have at least this cosine with a direction face it.
 constexpr double kFacing = 0.5;
 /// How far, and in which steps, the search along a weak direction goes: 50 m/s over 0.3 s.
-constexpr double kSearchReach_m = 15.0;
+constexpr int kSearchStarts = 16;
 constexpr double kSearchStep_m = 2.0;
 constexpr int kSearchFirstRound = 2;
 constexpr int kSearchLastRound = 11;
@@ -188,7 +188,8 @@ Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& inte
   Vector6d best = found;
   double best_agreement = interval.Agreement(found, direction);
   std::vector<double> agreements;
-  for (double start_m = -kSearchReach_m; start_m <= kSearchReach_m; start_m += kSearchStep_m) {
+  for (int i = 0; i < kSearchStarts; ++i) {
+    const double start_m = kSearchStep_m * (i - 0.5 * (kSearchStarts - 1));
     Vector6d start = found;
     start.head<3>() += (start_m - found_m) * direction;
     const Vector6d tau = interval.Refine(start, kSearchFirstRound, kSearchLastRound);

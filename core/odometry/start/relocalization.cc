@@ -131,7 +131,9 @@ class Hypothesis {
     const Eigen::Vector3d direction = (end - origin) / range_m;
     const double last_m = std::min(range_m - kRayEnd_m, kLongestRay_m);
     Neighbors nearest;
-    for (double way_m = kRayBegin_m; way_m < last_m; way_m += kRayStep_m) {
+    const auto steps = static_cast<int>(std::ceil((last_m - kRayBegin_m) / kRayStep_m));
+    for (int i = 0; i < steps; ++i) {
+      const double way_m = kRayBegin_m + kRayStep_m * i;
       map_.finest().Nearest(origin + way_m * direction, 1, &nearest);
       if (nearest.count > 0 && nearest.squared_distance[0] < kPassed_m * kPassed_m) return true;
     }

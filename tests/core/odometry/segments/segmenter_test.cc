@@ -7,39 +7,10 @@
 #include <random>
 #include <set>
 
+#include "tests/core/odometry/segments/segment_scans.h"
+
 namespace trajlo {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
-
-/// A scan of one point a millisecond, all far apart, the i-th at x = 1000 + first_ms + i.
-LidarScan MakeScan(std::int64_t first_ms, int count, int lidar = 0) {
-  LidarScan scan;
-  scan.lidar_id = lidar;
-  scan.stamp_ns = first_ms * kMs;
-  for (int i = 0; i < count; ++i) {
-    scan.points.push_back(
-        {{5.0F + static_cast<float>((first_ms + i) % 100), static_cast<float>(10 * lidar), 1.0F},
-         0.0F,
-         (first_ms + i) * kMs});
-  }
-  return scan;
-}
-
-SegmenterOptions SmallOptions() {
-  SegmenterOptions options;
-  options.first_interval_s = 0.1;
-  options.interval_s = 0.03;
-  options.map_voxel_m = 0.5;
-  options.registration_voxel_m = 2.0;
-  return options;
-}
-
-std::vector<SegmentCloud> Drain(Segmenter* segmenter) {
-  std::vector<SegmentCloud> clouds;
-  while (auto cloud = segmenter->Next()) clouds.push_back(std::move(*cloud));
-  return clouds;
-}
 
 TEST(Segmenter, HasNoHolesBetweenSegmentsAndTimesWithinThem) {
   Segmenter segmenter(SmallOptions());
@@ -203,102 +174,6 @@ TEST(Segmenter, DropsARepeatedScanAndTimeThatGoesBackwards) {
   EXPECT_TRUE(Drain(&segmenter).empty());
 }
 
-TEST(Segmenter, MakesOneSegmentAScanWhereThereAreNoPointTimes) {
-  Segmenter segmenter(SmallOptions());
-  for (int i = 0; i < 3; ++i) {
-    LidarScan scan = MakeScan(100 * i, 50);
-    scan.has_point_times = false;
-    for (LidarPoint& point : scan.points) point.t_ns = scan.stamp_ns;
-    segmenter.AddScan(scan);
-  }
-  const auto clouds = Drain(&segmenter);
-  ASSERT_EQ(clouds.size(), 3u);
-  EXPECT_EQ(clouds[1].begin_ns, 0);
-  EXPECT_EQ(clouds[1].end_ns, 100 * kMs);
-  for (const SegmentPoint& point : clouds[1].map_points) EXPECT_EQ(point.alpha, 1.0F);
-}
-
-LidarScan DiscreteScan(std::int64_t stamp_ms, int lidar = 0) {
-  LidarScan scan = MakeScan(stamp_ms, 50, lidar);
-  scan.has_point_times = false;
-  for (LidarPoint& point : scan.points) point.t_ns = scan.stamp_ns;
-  return scan;
-}
-
-TEST(Segmenter, AfterAGapAScanWithoutPointTimesIsASegmentAsLongAsBefore) {
-  Segmenter segmenter(SmallOptions());
-  for (const int stamp_ms : {0, 100, 200, 1500, 1600}) segmenter.AddScan(DiscreteScan(stamp_ms));
-  const auto clouds = Drain(&segmenter);
-  ASSERT_EQ(clouds.size(), 6u);
-  EXPECT_TRUE(clouds[3].is_gap);
-  EXPECT_EQ(clouds[3].begin_ns, 200 * kMs);
-  EXPECT_EQ(clouds[3].end_ns, 1400 * kMs);
-  EXPECT_FALSE(clouds[4].is_gap);
-  EXPECT_EQ(clouds[4].end_ns, 1500 * kMs);
-  EXPECT_GT(clouds[4].map_points.size(), 10u);
-}
-
-TEST(Segmenter, ScansOfTwoLidarsWithoutPointTimesShareTheSegmentOfOneStamp) {
-  SegmenterOptions options = SmallOptions();
-  options.T_body_lidar = {SE3(), SE3()};
-  for (const bool second_first : {false, true}) {
-    Segmenter segmenter(options);
-    std::vector<SegmentCloud> clouds;
-    for (int i = 0; i < 5; ++i) {
-      segmenter.AddScan(DiscreteScan(100 * i, second_first ? 1 : 0));
-      segmenter.AddScan(DiscreteScan(100 * i, second_first ? 0 : 1));
-      for (SegmentCloud& cloud : Drain(&segmenter)) clouds.push_back(std::move(cloud));
-    }
-    EXPECT_EQ(segmenter.counts().too_late, 0);
-    ASSERT_EQ(clouds.size(), 5u);
-    for (std::size_t k = 0; k < 5; ++k) {
-      EXPECT_EQ(clouds[k].end_ns, 100 * static_cast<std::int64_t>(k) * kMs);
-      bool first = false, second = false;
-      for (const SegmentPoint& point : clouds[k].map_points) {
-        EXPECT_EQ(point.alpha, 1.0F);
-        (point.p_body_m.y() > 5 ? second : first) = true;
-      }
-      EXPECT_TRUE(first && second) << k;
-    }
-  }
-}
-
-TEST(Segmenter, AScanWithoutPointTimesThatComesBetweenTwoOthersOfAnotherLidarSplitsTheirSegment) {
-  SegmenterOptions options = SmallOptions();
-  options.T_body_lidar = {SE3(), SE3()};
-  Segmenter segmenter(options);
-  segmenter.AddScan(DiscreteScan(0, 0));
-  segmenter.AddScan(DiscreteScan(100, 0));
-  segmenter.AddScan(DiscreteScan(40, 1));
-  segmenter.Finish();
-  const auto clouds = Drain(&segmenter);
-  ASSERT_EQ(clouds.size(), 3u);
-  EXPECT_EQ(clouds[1].end_ns, 40 * kMs);
-  EXPECT_GT(clouds[1].map_points.front().p_body_m.y(), 5.0F);
-  EXPECT_EQ(clouds[2].end_ns, 100 * kMs);
-  EXPECT_EQ(segmenter.counts().too_late, 0);
-}
-
-TEST(Segmenter, AScanWithoutPointTimesAmongOthersThatHaveThemIsAtItsStamp) {
-  SegmenterOptions options = SmallOptions();
-  options.T_body_lidar = {SE3(), SE3()};
-  Segmenter segmenter(options);
-  for (int t = 0; t < 500; t += 100) {
-    segmenter.AddScan(MakeScan(t, 100, 0));
-    segmenter.AddScan(DiscreteScan(t + 42, 1));
-  }
-  segmenter.Finish();
-  EXPECT_EQ(segmenter.counts().too_late, 0);
-  for (const SegmentCloud& cloud : Drain(&segmenter)) {
-    for (const SegmentPoint& point : cloud.map_points) {
-      if (point.p_body_m.y() < 5) continue;
-      const double t_ms = 1e-6 * (static_cast<double>(cloud.begin_ns) +
-                                  point.alpha * static_cast<double>(cloud.end_ns - cloud.begin_ns));
-      EXPECT_NEAR(std::fmod(t_ms, 100.0), 42.0, 1e-3);
-    }
-  }
-}
-
 /// Whatever comes: segments without holes, none shorter than a millisecond but for the instant with
 /// which motion-corrected scans begin, and every point accounted for.
 TEST(Segmenter, NoSegmentIsShorterThanAMillisecond) {
@@ -379,32 +254,5 @@ TEST(Segmenter, RegistersAtMostSoManyPointsSpreadOverTheSegment) {
                 1.0 / 7, 0.02);
   }
 }
-
-TEST(VoxelFilter, KeepsTheFirstPointOfEachCellWithItsTime) {
-  std::mt19937 engine(1);
-  std::uniform_real_distribution<float> coordinate(-20, 20);
-  std::vector<SegmentPoint> points, kept;
-  for (int i = 0; i < 20000; ++i) {
-    SegmentPoint point = {{}, static_cast<float>(i) / 20000.0F};
-    for (float& c : point.p_body_m) c = coordinate(engine);
-    points.push_back(point);
-  }
-  VoxelFilter filter(1.7);
-  for (int repeat = 0; repeat < 3; ++repeat) {
-    filter.Filter(points, &kept);
-    std::set<std::array<int, 3>> cells;
-    std::vector<float> expected;
-    for (const SegmentPoint& p : points) {
-      std::array<int, 3> cell;
-      for (int a = 0; a < 3; ++a) {
-        cell[a] = static_cast<int>(std::floor(p.p_body_m[a] * static_cast<float>(1.0 / 1.7)));
-      }
-      if (cells.insert(cell).second) expected.push_back(p.alpha);
-    }
-    ASSERT_EQ(kept.size(), expected.size());
-    for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].alpha, expected[i]);
-  }
-}
-
 }  // namespace
 }  // namespace trajlo

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "apps/run/run.h"
+
+#include <utility>
+
+#include "core/comparison/forms/ceres_form_solver.h"
+#include "core/io/atomic_file.h"
+#include "core/io/point_cloud_writer.h"
+#include "core/report/flag_warnings.h"
+#include "core/report/progress_bar.h"
+#include "core/report/view_ply.h"
+
+namespace trajlo {
+namespace {
+
+double SecondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+SamplingOptions WithGaps(const RunRequest& request) {
+  SamplingOptions sampling = request.sampling;
+  sampling.max_gap_s = request.config.odometry.segmenter.max_gap_s;
+  return sampling;
+}
+
+}  // namespace
+
+Run::Run(const RunRequest& request, const ResultFolder& folder, ScanSource* recording,
+         RunSummary* summary)
+    : request_(request),
+      folder_(folder),
+      recording_(recording),
+      summary_(summary),
+      sampler_(WithGaps(request)),
+      trajectory_(folder.trajectory(), IfExists::kReplace),
+      windows_(folder.windows(), IfExists::kReplace),
+      odometry_(request.config.odometry, MakeSolverFactory(request.config.ceres_form)) {
+  odometry_.OnScan([this](const LidarScan& scan) {
+    sampler_.NoteScan(scan);
+    if (view_) view_->Note(scan);
+    if (!first_ns_) first_ns_ = scan.stamp_ns;
+    newest_ns_ = scan.stamp_ns;
+  });
+  odometry_.OnWindow([this](const WindowStatistics& window) {
+    windows_.Append(window);
+    summary_->windows.Add(window);
+    inlier_share_ = window.InlierShare();
+  });
+  if (request.view) view_.emplace(request.config.odometry.segmenter);
+  if (!request.covariance) return;
+  covariance_.emplace(folder.covariance(), IfExists::kReplace);
+  odometry_.OnPose([this](const ControlPose& pose, const Matrix6d& covariance) {
+    covariance_->Append(pose, covariance);
+  });
+}
+
+template <typename Work>
+void Run::Timed(const Work& work) {
+  const Clock::time_point begin = Clock::now();
+  work();
+  if (first_ns_) processing_.Add(newest_ns_, 1e3 * SecondsSince(begin));
+}
+
+void Run::Estimate(const std::atomic<bool>& stop) {
+  ProgressBar bar(stderr, request_.quiet);
+  const Clock::time_point begin = Clock::now();
+  LidarScan scan;
+  for (std::size_t count = 0; !stop && recording_->Next(&scan); ++count) {
+    Timed([&] { odometry_.AddScan(scan); });
+    sampler_.Advance(odometry_.trajectory(), [&](std::int64_t t_ns, const SE3& T) {
+      Append(t_ns, T);
+      return !stop;
+    });
+    const std::int64_t data_ns = newest_ns_ - first_ns_.value_or(newest_ns_);
+    bar.Update({count + 1, recording_->size(), 1e-9 * static_cast<double>(data_ns),
+                SecondsSince(begin), inlier_share_});
+  }
+  Timed([&] { odometry_.Finish(); });
+}
+
+void Run::Write() {
+  sampler_.Finish(odometry_.trajectory(), [this](std::int64_t t_ns, const SE3& T) {
+    Append(t_ns, T);
+    return true;
+  });
+  trajectory_.Flush();
+  trajectory_.Close();
+  windows_.Close();
+  if (covariance_) covariance_->Close();
+  // Only now it is known from when on the run was lost.
+  WriteTextFile(folder_.flags(), FlagsCsv(Flags(), written_ns_), IfExists::kReplace);
+  std::vector<CloudPoint> points;
+  odometry_.map().finest().ForEachPoint([&](const Eigen::Vector3d& p) {
+    points.push_back({p.cast<float>(), 0.0F});
+  });
+  WritePointCloud(folder_.map(), points, CloudFields::kXyz, IfExists::kReplace);
+  summary_->map_points = points.size();
+  if (view_) WriteViewPly(folder_.view(), view_->Deskew(odometry_.trajectory()));
+}
+
+void Run::Summarise() const {
+  RunSummary& s = *summary_;
+  s.read = recording_->report();
+  s.points = odometry_.point_counts();
+  s.times = odometry_.time_report();
+  s.lost_at_ns = odometry_.lost_at_ns();
+  s.poses_written = sampler_.written();
+  s.warnings = s.times.remarks;
+  const std::string odd_stamps = s.OddStamps();
+  if (!odd_stamps.empty()) {
+    s.warnings.push_back("of " + std::to_string(s.times.scans) + " scans: " + odd_stamps);
+  }
+  s.warnings.insert(s.warnings.end(), s.read.warnings.begin(), s.read.warnings.end());
+  if (sampler_.scans_without_pose() > 0) {
+    s.warnings.push_back(std::to_string(sampler_.scans_without_pose()) +
+                         " scans have no pose: repeated, out of order, or without points");
+  }
+  const std::vector<ControlPose>& poses = odometry_.trajectory().poses();
+  if (!poses.empty()) {
+    s.begin_ns = poses.front().t_ns;
+    s.end_ns = poses.back().t_ns;
+    s.distance_to_start_m = (poses.back().T_world_body.t - poses.front().T_world_body.t).norm();
+  }
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    s.path_length_m += (poses[i].T_world_body.t - poses[i - 1].T_world_body.t).norm();
+  }
+  s.flags = Flags();
+  for (const std::string& warning : FlagWarnings(s)) s.warnings.push_back(warning);
+  s.estimation_s = 1e-3 * processing_.total_ms();
+  if (s.end_ns) {
+    const ProcessingTime::Quantiles quantiles = processing_.PerSecondOfData(*s.end_ns);
+    s.median_ms = quantiles.median_ms;
+    s.p95_ms = quantiles.p95_ms;
+  }
+}
+
+void Run::Append(std::int64_t t_ns, const SE3& T_world_body) {
+  trajectory_.Append(t_ns, T_world_body);
+  written_ns_.push_back(t_ns);
+}
+
+}  // namespace trajlo
