@@ -21,8 +21,6 @@
 namespace trajlo {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kAllCores = 0;
 
 /// The topics with points of all inputs, one for each LiDAR; empty texts for folders of scans.

@@ -68,7 +68,7 @@ Alignment Umeyama(const std::vector<PosePair>& pairs, bool with_scale) {
     return alignment;
   }
   const Eigen::JacobiSVD<Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vector3d d = svd.singularValues();
+  const Vector3d& d = svd.singularValues();
   if (!(d[1] > std::max(kUndetermined * d[0], std::numeric_limits<double>::epsilon()))) {
     throw EvaluationError(
         "the alignment is undetermined: the positions of the " + std::to_string(pairs.size()) +

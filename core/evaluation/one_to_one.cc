@@ -63,7 +63,7 @@ std::vector<std::pair<std::size_t, std::size_t>> PairOneToOne(const std::vector<
     candidates.pop();
     if (list[x].paired || list[y].paired) continue;
     list[x].paired = list[y].paired = true;
-    pairs.push_back({list[x].index, list[y].index});
+    pairs.emplace_back(list[x].index, list[y].index);
     const std::size_t before = list[std::min(x, y)].before;
     const std::size_t after = list[std::max(x, y)].after;
     if (before != kNone) list[before].after = after;

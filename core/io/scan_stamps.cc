@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -138,6 +139,21 @@ std::vector<std::size_t> LinesOfScans(const ScanListing& listing, std::size_t st
   return lines;
 }
 
+/// How much more time than a period lies between scans i and i + 1, in the median over what three
+/// scans on either side say: one of the stamps may be wrong.
+double TimeLeftOut_s(const std::vector<std::int64_t>& t_ns, std::size_t i, double period_s) {
+  std::vector<double> left_out_s;
+  for (std::size_t a = 0; a < 3 && a <= i; ++a) {
+    for (std::size_t b = 0; b < 3 && i + 1 + b < t_ns.size(); ++b) {
+      const double step_s = 1e-9 * static_cast<double>(t_ns[i + 1 + b] - t_ns[i - a]);
+      left_out_s.push_back(step_s - static_cast<double>(1 + a + b) * period_s);
+    }
+  }
+  const auto middle = left_out_s.begin() + static_cast<std::ptrdiff_t>(left_out_s.size() / 2);
+  std::nth_element(left_out_s.begin(), middle, left_out_s.end());
+  return *middle;
+}
+
 /// Where the numbers in the names leave some out, scans are missing, and the stamps must leave out
 /// their time. Where they do not, a scan has another name than it had, such as 000012.pcd become
 /// 999000012.pcd, and all scans behind it have the stamps of others. Throws InputError then.
@@ -161,8 +177,7 @@ void RequireTheSameGaps(const ScanListing& listing, const std::vector<std::int64
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::size_t missing = steps[i] / usual - 1;
     const bool leaves_out = steps[i] % usual == 0 && missing >= 1 && missing <= kMostMissing;
-    const double step_s = 1e-9 * static_cast<double>(t_ns[i + 1] - t_ns[i]);
-    if (!leaves_out || step_s <= 0.0 || step_s > 1.5 * period_s) continue;
+    if (!leaves_out || std::abs(TimeLeftOut_s(t_ns, i, period_s)) > 0.5 * period_s) continue;
     throw InputError(stamps_file,
                      "it is not known which stamp is whose: between " +
                          listing.files[i].filename().string() + " and " +

@@ -3,8 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace trajlo {
+namespace {
+
+std::string Seconds(double seconds) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.1f s", seconds);
+  return text;
+}
+
+}  // namespace
 
 std::int64_t RunSummary::NotFinite() const {
   const auto without_time = static_cast<std::int64_t>(read.points_without_time);
@@ -39,7 +49,7 @@ std::string RunSummary::OddStamps() const {
 std::string RunSummary::MissingInput() const {
   constexpr double kSizeableShare = 0.05;
   std::vector<std::string> parts;
-  if (read.file_is_cut) parts.push_back("a part of the file is missing or broken");
+  if (read.file_is_cut) parts.emplace_back("a part of the file is missing or broken");
   if (read.scans_damaged > 0) {
     parts.push_back(std::to_string(read.scans_damaged) +
                     (read.scans_damaged == 1 ? " scan is damaged" : " scans are damaged"));
@@ -84,7 +94,11 @@ std::string RunSummary::MissingInput() const {
                     std::to_string(times.scans) +
                     " scans have no point that can be used: the trajectory ends before them");
   }
-  if (times.clocks_may_differ) parts.push_back("the clocks of the LiDARs may differ");
+  if (times.doubtful_end_s > kSizeableShare * DataSeconds()) {
+    parts.push_back("by its stamp, the last scan comes " + Seconds(times.doubtful_end_s) +
+                    " after the one before; nothing confirms that, and it was left out");
+  }
+  if (times.clocks_may_differ) parts.emplace_back("the clocks of the LiDARs may differ");
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", and ") + part;
   return text;

@@ -63,8 +63,8 @@ struct RunSummary {
   /// What of the input is missing or cannot be relied on, if it is more than a little: exit code 3.
   /// Points count if more than 5 % were dropped because of their times, scans if more than 5 %
   /// have other times than their stamps or, unlike the others, one time for all points, if more
-  /// than 5 % have or seem to have the points of others, or if the first or the last 5 % have no
-  /// points.
+  /// than 5 % have or seem to have the points of others, if the first or the last 5 % have no
+  /// points, or if a last scan that was dropped would lengthen the recording by so much.
   std::string MissingInput() const;
 
   double DataSeconds() const {

@@ -58,6 +58,7 @@ void ScanSequencer::Add(const LidarScan& scan) {
     before_pose_.resize(lidar + 1);
   }
   const std::int64_t arrival = report_.scans++;
+  report_.doubtful_end_s = 0.0;
   LidarTrack& track = tracks_[lidar];
   const auto times = MeasureTimes(scan, track.clock().usual_span_ns());
   if (!times) {
@@ -125,6 +126,7 @@ void ScanSequencer::Apply(const Judgement& judgement) {
     return &other->held == judgement.held;
   });
   Count(judgement, &report_);
+  if (judgement.fate == ScanFate::kMisfit) DoubtTheEnd(*judgement.held);
   if (IsDropped(judgement.fate)) {
     report_.points += static_cast<std::int64_t>(judgement.held->scan.points.size());
     queue_.erase(entry);
@@ -136,6 +138,15 @@ void ScanSequencer::Apply(const Judgement& judgement) {
   // It comes before those of its LiDAR that it overtook.
   const auto place = std::find_if(queue_.begin(), entry, of_lidar);
   std::rotate(place, entry, entry + 1);
+}
+
+/// The last scan may be wrong, or all that tells how long the recording is.
+void ScanSequencer::DoubtTheEnd(const HeldScan& dropped) {
+  const LidarClock& clock = tracks_[static_cast<std::size_t>(dropped.scan.lidar_id)].clock();
+  if (dropped.arrival + 1 < report_.scans || !clock.has_started()) return;
+  const auto begin_ns = static_cast<double>(clock.PlaceOf(dropped.scan, dropped.times).begin_ns);
+  const double ahead_s = 1e-9 * (begin_ns - static_cast<double>(clock.last().begin_ns));
+  report_.doubtful_end_s = std::max(0.0, ahead_s);
 }
 
 void ScanSequencer::Release() {

@@ -56,6 +56,7 @@ class ScanSequencer {
 
   void Judge(std::size_t lidar, bool is_final);
   void Apply(const Judgement& judgement);
+  void DoubtTheEnd(const HeldScan& dropped);
   void Release();
   void Describe(std::size_t lidar);
   void CompareSpans();

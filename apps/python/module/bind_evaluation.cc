@@ -58,8 +58,8 @@ Poses FromTrajectory(const Trajectory& trajectory, const std::string& name) {
   poses.name = name;
   for (const ControlPose& pose : trajectory.poses()) {
     poses.timed.t_ns.push_back(pose.t_ns);
-    poses.timed.T_world_body.push_back(
-        Eigen::Affine3d(Eigen::Translation3d(pose.T_world_body.t) * pose.T_world_body.q));
+    poses.timed.T_world_body.emplace_back(Eigen::Translation3d(pose.T_world_body.t) *
+                                          pose.T_world_body.q);
   }
   return poses;
 }

@@ -29,6 +29,8 @@ std::string WithoutDashes(const std::string& message) {
   return message.compare(0, 2, "--") == 0 ? message.substr(2) : message;
 }
 
+// The signature is pybind11's.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void Translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);

@@ -72,13 +72,12 @@ double SpeedInBend(const RoutePath& path, double along_m) {
 /// The speed that leaves room to brake with 2.5 m/s² before the bends ahead, and that can have been
 /// gained with `acceleration_mps2` since those behind.
 double SpeedAboutBends(const RoutePath& path, double along_m, double acceleration_mps2) {
-  constexpr double kReach = 60.0;
-  constexpr double kStep = 1.0;
+  constexpr int kReach_m = 60;
   double squared = std::numeric_limits<double>::infinity();
-  for (double ahead = -kReach; ahead <= kReach; ahead += kStep) {
-    const double bend = SpeedInBend(path, along_m + ahead);
-    const double rate = ahead < 0.0 ? acceleration_mps2 : 2.5;
-    squared = std::min(squared, bend * bend + 2.0 * rate * std::abs(ahead));
+  for (int ahead_m = -kReach_m; ahead_m <= kReach_m; ++ahead_m) {
+    const double bend = SpeedInBend(path, along_m + ahead_m);
+    const double rate = ahead_m < 0 ? acceleration_mps2 : 2.5;
+    squared = std::min(squared, bend * bend + 2.0 * rate * std::abs(ahead_m));
   }
   return std::sqrt(squared);
 }

@@ -182,11 +182,12 @@ TEST_F(StampSearch, NamesOfSeveralPatternsLeaveOpenWhichStampIsWhose) {
 
 TEST_F(StampSearch, AScanThatIsMissingByItsNumberIsMissingByItsStamp) {
   const auto find = [&](const std::vector<const char*>& names, const char* stamps) {
+    for (const auto& old : std::filesystem::directory_iterator(folder_.path())) {
+      std::filesystem::remove(old.path());
+    }
     for (const char* name : names) folder_.Write(name, "");
     folder_.Write("times.txt", stamps);
-    const ScanStamps found = Find();
-    for (const char* name : names) std::filesystem::remove(folder_.path() / name);
-    return found.t_ns.size();
+    return Find().t_ns.size();
   };
   // One was lost before the stamps were written, and every second one left out.
   EXPECT_EQ(find({"00.bin", "01.bin", "03.bin", "04.bin"}, "5.0\n5.1\n5.3\n5.4\n"), 4U);
@@ -201,6 +202,11 @@ TEST_F(StampSearch, AScanThatIsMissingByItsNumberIsMissingByItsStamp) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("between 01.bin and 03.bin"));
   }
+  // A wrong stamp beside the gap is no time for the scan that is missing, nor does it take it away.
+  const std::vector<const char*> names = {"00.bin", "01.bin", "03.bin",
+                                          "04.bin", "05.bin", "06.bin"};
+  EXPECT_THROW(find(names, "5.0\n5.1\n5.8\n5.3\n5.4\n5.5\n"), InputError);
+  EXPECT_EQ(find(names, "5.0\n5.25\n5.3\n5.4\n5.5\n5.6\n"), 6U);
 }
 
 TEST_F(StampSearch, TimesOfRecordingAreFoundInTheSameWay) {

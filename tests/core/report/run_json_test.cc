@@ -111,6 +111,15 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
             "the last 6 of 100 scans have no point that can be used: the trajectory ends before "
             "them");
   s.times.until_last_point = 100;
+  s.begin_ns = 0;
+  s.end_ns = 10'000'000'000;
+  s.times.doubtful_end_s = 0.5;
+  EXPECT_EQ(s.MissingInput(), "");
+  s.times.doubtful_end_s = 2.45;
+  EXPECT_EQ(s.MissingInput(),
+            "by its stamp, the last scan comes 2.5 s after the one before; nothing confirms that, "
+            "and it was left out");
+  s.times.doubtful_end_s = 0.0;
   s.read.file_is_cut = true;
   s.times.clocks_may_differ = true;
   EXPECT_EQ(s.MissingInput(),

@@ -189,6 +189,17 @@ TEST(ScanSequencer, CountsTheScansAfterTheLastOneOfUse) {
   EXPECT_EQ(sequencer.report().Unseen(), 20);
 }
 
+TEST(ScanSequencer, ALoneScanBehindALongPauseLeavesTheEndInDoubt) {
+  for (const std::size_t odd : {19U, 12U}) {
+    std::vector<std::int64_t> stamps = Regular(20);
+    stamps[odd] += 2400 * kMs;
+    ScanSequencer sequencer(0.5, [](const LidarScan&) {});
+    for (const LidarScan& scan : WithStamps(stamps)) sequencer.Add(scan);
+    sequencer.Finish();
+    EXPECT_NEAR(sequencer.report().doubtful_end_s, odd == 19 ? 2.5 : 0.0, 1e-9);
+  }
+}
+
 TEST(ScanSequencer, CountsTheScansBeforeTheFirstPose) {
   // The first two have no points. The pose is found when more scans have come, and lies in a sweep.
   std::vector<LidarScan> scans = WithStamps(Regular(20));
