@@ -219,7 +219,7 @@ TEST_F(TrajloConvertResult, PosesFromWhereItGotLostAreLeftOutAndTheirPointsToo) 
   std::string summary = ReadFile(Path("lost/run.json"));
   const std::string entry = "\"lost_at_s\": null";
   ASSERT_NE(summary.find(entry), std::string::npos);
-  summary.replace(summary.find(entry), entry.size(), "\"lost_at_s\": \"1000.600000000\"");
+  summary.replace(summary.find(entry), entry.size(), R"("lost_at_s": "1000.600000000")");
   WriteFile(Path("lost/run.json"), summary);
   const Outcome outcome = Convert({Path("lost"), Path("lost.mcap")});
   EXPECT_EQ(outcome.exit_code, 0);

@@ -210,7 +210,7 @@ TEST_F(TrajloRunTest, TooLittleMemoryIsSixWithASentence) {
   int failed = 0;
   for (const char* kilobytes : {"32000", "40000", "50000", "64000", "80000", "120000"}) {
     const Outcome outcome = CallProgram(
-        "/bin/bash", {"-c", std::string("ulimit -v ") + kilobytes + "; exec \"$0\" \"$@\"",
+        "/bin/bash", {"-c", std::string("ulimit -v ") + kilobytes + R"(; exec "$0" "$@")",
                       TRAJLO_RUN, input(), "-o", output(), "--overwrite"});
     // 3: too little for some scans only. 127: too little to load the program.
     EXPECT_THAT(outcome.exit_code, ::testing::AnyOf(0, 3, 6, 127)) << kilobytes << outcome.err;

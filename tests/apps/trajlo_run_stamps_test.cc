@@ -121,7 +121,7 @@ TEST_F(StampsTest, SwappedScansArePutInOrder) {
   std::vector<std::int64_t> stamps = Regular();
   Write(stamps);
   for (int i = 0; i + 1 < kScans; i += 2) {
-    std::swap(stamps[static_cast<std::size_t>(i)], stamps[static_cast<std::size_t>(i + 1)]);
+    std::swap(stamps[static_cast<std::size_t>(i)], stamps[static_cast<std::size_t>(i) + 1]);
     fs::rename(RoomRecording::File(input(), i), temp_ / "in/one");
     fs::rename(RoomRecording::File(input(), i + 1), RoomRecording::File(input(), i));
     fs::rename(temp_ / "in/one", RoomRecording::File(input(), i + 1));

@@ -31,7 +31,7 @@ Pairs EveryPairSorted(const std::vector<std::int64_t>& a_ns, const std::vector<s
   for (std::size_t i = 0; i < a_ns.size(); ++i) {
     for (std::size_t j = 0; j < b_ns.size(); ++j) {
       const double difference_s = RoundedDistance_s(a_ns[i], b_ns[j]);
-      if (difference_s < max_difference_s) sorted.push_back({difference_s, i, j});
+      if (difference_s < max_difference_s) sorted.emplace_back(difference_s, i, j);
     }
   }
   std::sort(sorted.begin(), sorted.end());

@@ -21,8 +21,8 @@ PlacedScan Plane(const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
   scan.t_ns = 5;
   scan.T_world_body.t = sensor;
   for (int i = 0; i < 20000; ++i) {
-    scan.points_world_m.push_back(center + random.Uniform(-2.0, 2.0) * u +
-                                  random.Uniform(-2.0, 2.0) * v);
+    scan.points_world_m.emplace_back(center + random.Uniform(-2.0, 2.0) * u +
+                                     random.Uniform(-2.0, 2.0) * v);
     scan.intensities.push_back(i % 2 == 0 ? 10.0F : 30.0F);
   }
   return scan;

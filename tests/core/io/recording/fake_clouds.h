@@ -45,7 +45,7 @@ inline PointTable TenPoints(const std::string& x) {
 }
 
 /// A recording in memory. Topics whose name begins with /cloud are clouds.
-class FakeClouds : public CloudMessageReader {
+class FakeClouds final : public CloudMessageReader {
  public:
   FakeClouds(const std::vector<std::string>& names, std::vector<FakeMessage> messages,
              MessageReport at_end = {})
