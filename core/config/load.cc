@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "core/config/config_file.h"
 #include "core/config/edit_distance.h"
@@ -129,24 +131,55 @@ std::string Trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\n") - begin + 1);
 }
 
+/// Notes where documents begin.
+class DocumentStarts final : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> marks;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { marks.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+std::string Place(const std::string& name, const YAML::Mark& mark) {
+  return name + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1);
+}
+
+/// The one document of a text. (YAML::LoadAll would not end on texts such as ", a", where the
+/// parser sees one empty document after the other at the same place.)
+YAML::Node OnlyDocument(const std::string& yaml, const std::string& name) {
+  const std::string broken = "this is not valid YAML: ";
+  try {
+    std::istringstream stream(yaml);
+    YAML::Parser parser(stream);
+    DocumentStarts starts;
+    while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
+    }
+    if (starts.marks.size() < 2) return YAML::Load(yaml);
+    const bool is_stuck = starts.marks[1].pos == starts.marks[0].pos;
+    throw ConfigError(Place(name, starts.marks[1]),
+                      is_stuck ? broken + "nothing can begin like this"
+                               : "a second YAML document begins here; a file holds one");
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(Place(name, error.mark), broken + error.msg);
+  }
+}
+
 void LoadYaml(const std::string& yaml, const std::string& name, bool with_places,
               RunConfig* config) {
-  std::vector<YAML::Node> documents;
-  try {
-    documents = YAML::LoadAll(yaml);
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) + ":" +
-                          std::to_string(error.mark.column + 1),
-                      "this is not valid YAML: " + error.msg);
-  }
-  if (documents.empty()) return;
+  const YAML::Node root = OnlyDocument(yaml, name);
   // Work on a copy: a file with an error changes nothing.
   RunConfig loaded = *config;
   Loader loader(name, with_places, &loaded);
-  const YAML::Node& root = documents.front();
-  if (documents.size() > 1) {
-    loader.Fail(documents[1], "a second YAML document begins here; a file holds one");
-  }
   if (root.IsNull()) return;
   if (!root.IsMap()) {
     loader.Fail(root, "expected sections with keys, such as 'window: {segments: 4}'");

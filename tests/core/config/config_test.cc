@@ -72,7 +72,7 @@ TEST(Config, RepeatedSectionAndSecondDocumentAreErrors) {
   EXPECT_THAT(LoadingError("expert: {map: {plane: {neighbors: 5}, plane: {}}}"),
               HasSubstr("section 'expert.map.plane' is there twice"));
   EXPECT_THAT(LoadingError("---\nwindow: {segments: 3}\n---\nwindow: {segments: 4}\n"),
-              AllOf(StartsWith("my.yaml:4:"), HasSubstr("second YAML document")));
+              AllOf(StartsWith("my.yaml:3:"), HasSubstr("second YAML document")));
   EXPECT_EQ(Loaded("---\nwindow: {segments: 3}\n...\n").odometry.window.segments, 3);
 }
 
@@ -99,6 +99,10 @@ TEST(Config, SectionWithAValueAndOptionWithASectionAreErrors) {
 TEST(Config, BrokenYamlNamesTheLine) {
   EXPECT_THAT(LoadingError("map:\n  kind: [kd_tree\n"),
               AllOf(StartsWith("my.yaml:3:"), HasSubstr("not valid YAML")));
+  // Of these yaml-cpp makes empty documents without end.
+  for (const char* text : {", a", ",", ", window: {segments: 3}"}) {
+    EXPECT_THAT(LoadingError(text), AllOf(StartsWith("my.yaml:1:1"), HasSubstr("not valid YAML")));
+  }
 }
 
 TEST(Config, MissingFileAndFolderAreErrors) {
