@@ -23,10 +23,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double SecondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 std::vector<std::string> Lines(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -142,7 +138,7 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
   } catch (const std::exception& error) {
     End(ExitCode::kFailed, "failed", FailureText(error), &summary);
   }
-  summary.wall_s = SecondsSince(begin);
+  summary.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   summary.cpu_s = ProcessCpuSeconds();
   summary.peak_memory_mb = PeakMemoryMegabytes();
   if (!prepared) {

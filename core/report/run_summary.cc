@@ -87,7 +87,7 @@ std::string RunSummary::MissingInput() const {
     parts.push_back(
         "the first " + std::to_string(times.before_first_pose) + " of " +
         std::to_string(times.scans) +
-        " scans show nothing, or too little, of the world: the trajectory begins behind them");
+        " scans show nothing, or too little, of the world: the trajectory begins after them");
   }
   if (static_cast<double>(times.Unseen()) > kSizeableShare * scans) {
     parts.push_back("the last " + std::to_string(times.Unseen()) + " of " +

@@ -140,7 +140,7 @@ void ScanSequencer::Apply(const Judgement& judgement) {
   std::rotate(place, entry, entry + 1);
 }
 
-/// The last scan may be wrong, or all that tells how long the recording is.
+/// A last scan that is dropped has a wrong stamp, or is the only sign that the recording goes on.
 void ScanSequencer::DoubtTheEnd(const HeldScan& dropped) {
   const LidarClock& clock = tracks_[static_cast<std::size_t>(dropped.scan.lidar_id)].clock();
   if (dropped.arrival + 1 < report_.scans || !clock.has_started()) return;

@@ -40,7 +40,7 @@ constexpr double kSayingSo = 0.5;
 constexpr double kWeakShare = 0.02;
 /// Planes whose normals have at least this cosine with a direction face it.
 constexpr double kFacing = 0.5;
-/// How far, and in which steps, the search along a weak direction goes: 50 m/s over 0.3 s.
+/// The search along a weak direction has so many starts, so far apart: 50 m/s over 0.3 s.
 constexpr int kSearchStarts = 16;
 constexpr double kSearchStep_m = 2.0;
 constexpr int kSearchFirstRound = 2;

@@ -102,7 +102,7 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.times.before_first_pose = 6;
   EXPECT_EQ(s.MissingInput(),
             "the first 6 of 100 scans show nothing, or too little, of the world: the trajectory "
-            "begins behind them");
+            "begins after them");
   s.times.before_first_pose = 5;
   s.times.until_last_point = 95;
   EXPECT_EQ(s.MissingInput(), "");
