@@ -10,7 +10,7 @@ enum class SolverKind { kCeres, kGaussNewton };
 
 struct SolverOptions {
   SolverKind kind = SolverKind::kCeres;
-  int max_rounds = 8;
+  int max_rounds = 20;
   int iterations_per_round = 1;
   StepTolerance step_tolerance;
 
@@ -20,7 +20,8 @@ struct SolverOptions {
       Names<SolverKind>{{"ceres", SolverKind::kCeres}, {"gauss_newton", SolverKind::kGaussNewton}},
       "Ceres, or the hand-written Gauss-Newton of the paper.");
     d(OptionFor::kExperts, "max_rounds", max_rounds, Range<int>{1, 1000},
-      "At most this many rounds of association and solve a window.");
+      "At most this many rounds of association and solve a window. Most windows take two to "
+      "five; the first ones of a jerk, more.");
     d(OptionFor::kExperts, "iterations_per_round", iterations_per_round, Range<int>{1, 1000},
       "At most this many solver iterations in each round.");
     d(OptionFor::kExperts, "step_tolerance_m", step_tolerance.translation_m,

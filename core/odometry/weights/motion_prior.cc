@@ -13,6 +13,8 @@ constexpr double kSumMemory_s = 0.1;
 constexpr double kLearning_s = 0.3;
 /// The largest step up, in units of what a rest makes a step down.
 constexpr double kLargestScore = 8.0;
+/// The noise of the points is taken to be as small as this share of what is assumed, in squares.
+constexpr double kLeastScatter = 0.2;
 /// A density above this ties nothing any more.
 constexpr double kLargestDensity = 1e4;
 /// A component of which the points tell less than this share is left out.
@@ -71,7 +73,8 @@ void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
     surprise_[part] += share * (surprise - surprise_[part]);
     scatter_[part] += share * (MeanSquare(1.0, z, innovation, 3 * part) - scatter_[part]);
     if (!options_.self_tuning) continue;
-    const double score = std::min(surprise - 1.0, kLargestScore);
+    const double noise = part == 0 ? std::clamp(scatter_[part], kLeastScatter, 1.0) : 1.0;
+    const double score = std::min(surprise / noise - 1.0, kLargestScore);
     const double density = density_[3 * part] * std::exp(score * duration_s / kLearning_s);
     density_.segment<3>(3 * part).setConstant(
         std::max(floor[part], std::min(density, kLargestDensity)));

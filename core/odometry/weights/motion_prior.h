@@ -48,9 +48,13 @@ struct MotionPriorOptions {
 /// a²):
 ///
 ///   u = (1 - a²) sum_i w_i s_i² / sum_i w_i,   w_i = the gain of component i,
-///   log q ← log q + (Δt / T_l) min(u - 1, 8),
+///   log q ← log q + (Δt / T_l) min(u / v - 1, 8),
 ///
-/// a step up the likelihood of s, with E u = 1 where it rests.
+/// a step up the likelihood of s, with E u = v where it rests. v = 1 if the noise of the points is
+/// as large as assumed. It is mostly smaller: sigma_m is on the safe side. Then z² has a mean below
+/// 1, and a sum of z that are independent is smaller in the same measure: v is the mean of z² over
+/// T_l, between 0.2 and 1. (Not beyond: a jerk makes z² large, too, and would hide itself. And not
+/// for rotation, where it brought nothing, and made runs at 35 rad/s too uncertain.)
 ///   At rest, z is the noise of planes that hardly changes the estimate: u < 1, and q falls to its
 /// floor. In constant acceleration z keeps its sign, s adds up, and q rises until the lag is within
 /// what q itself predicts. A jerk makes one z large: q rises by up to 8 Δt / T_l in a window, and

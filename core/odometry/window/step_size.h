@@ -9,10 +9,11 @@
 namespace trajlo {
 
 /// Control poses that moved by less are where they were: rounds end, and planes and linearisations
-/// are kept.
+/// are kept. What is left to go is a fraction of the last step, and the windows that follow solve
+/// for the same poses again.
 struct StepTolerance {
-  double translation_m = 1e-3;
-  double rotation_rad = 1e-4;
+  double translation_m = 5e-3;
+  double rotation_rad = 1e-3;
 };
 
 /// How far control poses moved, at most.
