@@ -37,11 +37,13 @@ def stamp_jitter(_, rng):
 
 
 def silence(scene, rng):
-    """A LiDAR says nothing for a while: a pause, if it is the only one."""
+    """A LiDAR says nothing for a while: a pause, if it is the only one. It has the last word, so
+    that nothing but a pause is asked for: nobody can know what a recording that ends leaves out."""
     begin = share(rng, 0.5, scene.duration_s - 0.5)
-    return {"faults.silent_lidar": int(rng.integers(scene.lidars)),
-            "faults.silent_from_s": begin,
-            "faults.silent_until_s": round(begin + logarithmic(rng, 0.2, 3.0), 3)}
+    lidar = int(rng.integers(scene.lidars))
+    until = min(begin + logarithmic(rng, 0.2, 3.0), scene.duration_s - 0.25)
+    return {"faults.silent_lidar": lidar, "faults.silent_from_s": begin,
+            "faults.silent_until_s": round(until, 3)}
 
 
 def dropouts(_, rng):

@@ -168,6 +168,13 @@ class FaultsTest(RecordingTest):
                 for key in parameters:
                     self.assertRegex(key, r"^(faults\.[a-z_]+|lidar\d?\.[a-z_]+)$")
 
+    def test_a_silent_lidar_speaks_again(self):
+        for scene in scenes.SCENES:
+            for seed in range(100):
+                silent = simulator_faults.silence(scene, np.random.default_rng(seed))
+                self.assertLess(silent["faults.silent_from_s"], silent["faults.silent_until_s"])
+                self.assertLess(silent["faults.silent_until_s"], scene.duration_s - 0.2)
+
 
 class DrawTest(unittest.TestCase):
     def test_a_number_is_always_the_same_run(self):
