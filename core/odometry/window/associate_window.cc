@@ -13,7 +13,8 @@ int AssociateWindow(const MapPyramid& map, const StepTolerance& tolerance, Threa
     std::size_t index;
   };
   std::vector<Chunk> chunks;
-  for (int k = 0; k < window->size(); ++k) {
+  // The newest segment asks in cells that nobody has asked in: the longest work first.
+  for (int k = window->size() - 1; k >= 0; --k) {
     Segment& segment = window->segments[static_cast<std::size_t>(k)];
     const SegmentCloud& cloud = segment.cloud;
     const std::size_t count =
