@@ -51,6 +51,10 @@ void Odometry::Take(SegmentCloud cloud) {
   }
   if (first_scan_) FindFirstVelocity(cloud);
   if (cloud.is_gap && !support_.was_supported() && !search_) {
+    if (trajectory_.empty()) {
+      Forget();
+      return;
+    }
     SettleWindow(cloud.end_ns);
     window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
     return;
@@ -76,6 +80,14 @@ void Odometry::Start(const SegmentCloud& cloud) {
   BeginMap(cloud, SE3(), tau, 0);
 }
 
+/// What was seen once, before a gap, tells neither where the body is behind it nor how it moved:
+/// the recording begins behind the gap.
+void Odometry::Forget() {
+  map_ = MapPyramid(options_.map);
+  first_pose_.reset();
+  started_ = false;
+}
+
 /// Whether there is something that points can agree with.
 bool Odometry::HasMap() const { return support_.was_supported() || map_.size() >= kFewestToBegin; }
 
@@ -85,7 +97,12 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
   const double duration_s = 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns);
   const SE3 T_end = T_begin * se3::Exp(tau);
   EnterMap(cloud, T_begin, T_end, &threads_, &map_);
-  if (duration_s > 0.0) Settle({cloud.begin_ns, T_begin, flags}, Matrix6d::Zero());
+  const ControlPose first = {cloud.begin_ns, T_begin, flags};
+  if (duration_s > 0.0 && trajectory_.empty() && HasMap()) {
+    first_pose_ = first;
+  } else if (duration_s > 0.0) {
+    Settle(first, Matrix6d::Zero());
+  }
   window_ = MakeWindow(cloud.end_ns, T_end);
   window_.begin_flags = flags;
   if (duration_s > 0.0) {
@@ -226,6 +243,7 @@ void Odometry::SettleFront() {
 /// The trajectory begins where the map does: what was before it, nothing tells.
 void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
   if (trajectory_.empty() && !HasMap()) return;
+  if (first_pose_) Settle(*std::exchange(first_pose_, std::nullopt), Matrix6d::Zero());
   if (trajectory_.empty()) segments_.NoteFirstPose(pose.t_ns);
   trajectory_.Append(pose);
   attitude_.Add(pose.T_world_body.q);

@@ -69,6 +69,7 @@ class Odometry {
 
  private:
   void Start(const SegmentCloud& cloud);
+  void Forget();
   void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau, unsigned flags);
   void FindFirstVelocity(const SegmentCloud& cloud);
   void Take(SegmentCloud cloud);
@@ -109,6 +110,7 @@ class Odometry {
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;
   std::optional<SegmentCloud> first_scan_;  ///< Of a map that begins with one time.
+  std::optional<ControlPose> first_pose_;   ///< Until the next one is final.
   bool started_ = false;
   std::int64_t windows_ = 0;
 };

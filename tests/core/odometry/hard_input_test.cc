@@ -43,6 +43,39 @@ TEST(Odometry, APauseIsOneGapAndTheRunGoesOn) {
   EXPECT_TRUE(flagged);
 }
 
+/// The body moves 2 m between the first scan that sees something and the next one: nothing tells
+/// how.
+TEST(Odometry, BeginsWhereItSeesSomethingForLong) {
+  SyntheticWorld world;
+  world.T_world_body = ConstantTwist;
+  Odometry odometry(RoomOptions());
+  int poses = 0;
+  odometry.OnPose([&](const ControlPose&, const Matrix6d&) { ++poses; });
+  for (int i = 0; i < 26; ++i) {
+    LidarScan scan = world.Sweep(i);
+    for (LidarPoint& point : scan.points) {
+      if (i >= 1 && i <= 14) point.xyz_m.setZero();
+    }
+    odometry.AddScan(scan);
+  }
+  odometry.Finish();
+  const auto& found = odometry.trajectory().poses();
+  ASSERT_GT(found.size(), 25u);
+  EXPECT_EQ(poses, static_cast<int>(found.size()));
+  EXPECT_GE(odometry.time_report().before_first_pose, 14);
+  const std::int64_t begin_ns = found.front().t_ns;
+  EXPECT_GE(begin_ns, world.start_ns + 1'490'000'000);
+  EXPECT_LE(begin_ns, world.start_ns + 1'510'000'000);
+  const auto truth = [&](std::int64_t t_ns) {
+    return world.T_world_body(1e-9 * static_cast<double>(t_ns - world.start_ns));
+  };
+  for (const ControlPose& pose : found) {
+    EXPECT_EQ(pose.flags & kFlagGap, 0u);
+    const SE3 moved = truth(begin_ns).Inverse() * truth(pose.t_ns);
+    EXPECT_LT((moved.t - pose.T_world_body.t).norm(), 0.03);
+  }
+}
+
 TEST(Odometry, WrongStampsNeitherEndTheRunNorMoveIt) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;
