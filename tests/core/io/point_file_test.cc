@@ -177,7 +177,7 @@ TEST(PointFile, ABinWithFiveNumbersAPointIsToldByItsRings) {
   EXPECT_EQ(cut.count, 319U);
   EXPECT_THAT(cut.damage, HasSubstr("319 points of 20 bytes and a rest of 13"));
   // The same numbers, but no rings: five is not certain, and four leave no rest here.
-  for (int i = 0; i < 320; ++i) bytes[static_cast<std::size_t>(20 * i + 16)] = '\x11';
+  for (std::size_t i = 0; i < 320; ++i) bytes[20 * i + 16] = '\x11';
   EXPECT_EQ(ReadPointFile(folder.Write("b.bin", bytes)).FieldNames(), "x y z intensity");
 }
 

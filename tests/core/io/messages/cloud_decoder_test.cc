@@ -112,9 +112,9 @@ TEST(CloudDecoder, PaddingBehindTheLastRowMayBeMissing) {
   cloud2.row_step = 24;
   cloud2.data_size = 40;
   cloud2.data.assign(40, '\0');
-  for (int i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     const float x = static_cast<float>(i);
-    std::memcpy(&cloud2.data[static_cast<std::size_t>(i / 2 * 24 + i % 2 * 8)], &x, sizeof(x));
+    std::memcpy(&cloud2.data[i / 2 * 24 + i % 2 * 8], &x, sizeof(x));
   }
   const CloudMessage cloud = Decoded(kCloud2, cloud2.Bytes());
   EXPECT_EQ(Values(cloud.table, "x"), (std::vector<double>{0.0, 1.0, 2.0, 3.0}));

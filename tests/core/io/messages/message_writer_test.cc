@@ -16,7 +16,13 @@ namespace {
 
 constexpr std::int64_t kStartNs = 1'700'000'000'123'456'789;
 
-bool SameBits(float a, float b) { return std::memcmp(&a, &b, sizeof(float)) == 0; }
+std::uint32_t Bits(float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+bool SameBits(float a, float b) { return Bits(a) == Bits(b); }
 
 class Written : public ::testing::TestWithParam<CloudLayout> {};
 

@@ -18,7 +18,9 @@ constexpr std::int64_t kStartNs = 1'600'000'000'000'000'000;
 /// A bag in memory.
 class MemoryBag : public RawMessageReader {
  public:
-  void Add(std::size_t topic, std::string bytes) { messages_.push_back({topic, std::move(bytes)}); }
+  void Add(std::size_t topic, std::string bytes) {
+    messages_.emplace_back(topic, std::move(bytes));
+  }
 
   const std::vector<Topic>& topics() const override { return topics_; }
   void Select(const std::vector<std::size_t>& topics) override { selected_ = topics; }

@@ -125,7 +125,7 @@ TEST(Writer, ADiskThatFillsUpIsAnErrorAndLeavesNothing) {
 TEST(Writer, AMissingFolderIsAnErrorThatNamesTheFile) {
   const TempFolder folder;
   try {
-    Ros1BagWriter(folder / "no/a.bag");
+    const Ros1BagWriter writer(folder / "no/a.bag");
     FAIL();
   } catch (const OutputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("no/a.bag"));

@@ -9,7 +9,6 @@ namespace trajlo {
 namespace {
 
 using ::testing::Contains;
-using ::testing::HasSubstr;
 
 constexpr std::int64_t kStampNs = 1'600'000'000'000'000'000;
 

@@ -60,7 +60,8 @@ TEST_P(Folder, WithoutMetadataIsReadByTheNamesOfItsFiles) {
 
 TEST_P(Folder, LeavesNothingBehind) {
   const TempFolder folder;
-  const std::string old = std::getenv("TMPDIR") != nullptr ? std::getenv("TMPDIR") : "";
+  const char* set = std::getenv("TMPDIR");
+  const std::string old = set != nullptr ? set : "";
   setenv("TMPDIR", folder.path().c_str(), 1);
   const auto messages = ReadAll(Fixture(GetParam()));
   old.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", old.c_str(), 1);
