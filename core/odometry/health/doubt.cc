@@ -57,8 +57,7 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
                         const Vector6d& density) {
   unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
   // At the right place behind a pause, a window settles.
-  const bool is_unsettled = (statistics.flags & kFlagNotConverged) != 0;
-  if (is_unsettled && IsBehindPause(window) && MayHaveMoved(window.EndNs(), density)) {
+  if (statistics.IsRestless() && IsBehindPause(window) && MayHaveMoved(window.EndNs(), density)) {
     unheld |= kFlagGap;
   }
   // At first, points that agree and leave a direction open are no reason for doubt.

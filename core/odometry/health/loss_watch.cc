@@ -6,13 +6,12 @@ namespace {
 
 /// Lost, when of all windows of this time ...
 constexpr double kSpan_s = 3.0;
-/// ... more than this share did not converge or were reverted: planes that never settle are not
+/// ... more than this share did not settle, or were reverted: planes that never settle are not
 /// those of the scene.
 constexpr double kMaxUnsettledShare = 0.8;
-/// A window that was given fewer rounds than this, by the options, says nothing.
-constexpr int kRoundsToSettle = 3;
-/// Where predictions are off by this much (root mean square over the span), half as many unsettled
-/// windows are enough ...
+/// Where predictions are off by kFailedPrediction_m (root mean square over the span), this share is
+/// enough ...
+constexpr double kMaxUnpredictedShare = 0.5;
 constexpr double kFailedPrediction_m = 1.4;
 /// ... a rotation counting with this lever arm.
 constexpr double kLeverArm_m = 20.0;
@@ -39,9 +38,7 @@ bool LossWatch::TooFewInliers(const WindowStatistics& window) {
 }
 
 bool LossWatch::TooFewSettled(const WindowStatistics& window) {
-  const unsigned unsettled =
-      window.rounds < kRoundsToSettle ? kFlagReverted : kFlagNotConverged | kFlagReverted;
-  const bool is_settled = (window.flags & unsettled) == 0;
+  const bool is_settled = (window.flags & kFlagReverted) == 0 && !window.IsRestless();
   const double correction_m = window.correction_m + kLeverArm_m * window.correction_rad;
   recent_.push_back({window.end_ns, is_settled, correction_m * correction_m});
   unsettled_ += is_settled ? 0 : 1;
@@ -56,7 +53,7 @@ bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   for (const Window& recent : recent_) squared_corrections_m2 += recent.squared_correction_m2;
   const bool predictions_fail =
       squared_corrections_m2 > kFailedPrediction_m * kFailedPrediction_m * windows;
-  const double max_share = (predictions_fail ? 0.5 : 1.0) * kMaxUnsettledShare;
+  const double max_share = predictions_fail ? kMaxUnpredictedShare : kMaxUnsettledShare;
   return span_is_full_ && static_cast<double>(unsettled_) > max_share * windows;
 }
 

@@ -4,6 +4,12 @@
 #include <algorithm>
 
 namespace trajlo {
+namespace {
+
+/// A window that still moves by this much has not settled, whatever tolerance the options ask for.
+constexpr StepTolerance kRestless = {5e-3, 1e-3};
+
+}  // namespace
 
 void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& options) {
   ++rounds;
@@ -18,6 +24,7 @@ void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& optio
     next.translation_m *= std::min(1.0, solve.step.translation_m / last_step_m);
     next.rotation_rad *= std::min(1.0, solve.step.rotation_rad / last_step_rad);
   }
+  if (!next.IsWithin(kRestless)) restless_rounds = rounds;
   last_step_m = solve.step.translation_m;
   last_step_rad = solve.step.rotation_rad;
   is_finite = solve.finite;

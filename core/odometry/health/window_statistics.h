@@ -27,16 +27,19 @@ constexpr unsigned kAllFlags[] = {
 
 /// One line of windows.csv: what happened in one sliding-window solve.
 struct WindowStatistics {
+  static constexpr int kRoundsToSettle = 5;
+
   std::int64_t index = 0;
   std::int64_t begin_ns = 0;  ///< First control pose of the window.
   std::int64_t end_ns = 0;    ///< Newest control pose.
   int segments = 0;
-  int points = 0;          ///< Registration points in the window.
-  int inliers = 0;         ///< Those with a plane in the last round.
-  int searched = 0;        ///< Map queries over all rounds; the others kept their plane.
-  int rounds = 0;          ///< associate ↔ solve rounds.
-  int iterations = 0;      ///< Solver steps over all rounds.
-  int rejected_steps = 0;  ///< Those that Ceres did not take because they raise the cost.
+  int points = 0;           ///< Registration points in the window.
+  int inliers = 0;          ///< Those with a plane in the last round.
+  int searched = 0;         ///< Map queries over all rounds; the others kept their plane.
+  int rounds = 0;           ///< associate ↔ solve rounds.
+  int restless_rounds = 0;  ///< After so many of them, more than 5 mm or 1 mrad were to come.
+  int iterations = 0;       ///< Solver steps over all rounds.
+  int rejected_steps = 0;   ///< Those that Ceres did not take because they raise the cost.
   double cost_registration = 0.0;
   double cost_motion = 0.0;
   double cost_prior = 0.0;
@@ -65,6 +68,9 @@ struct WindowStatistics {
   void Add(const SolveSummary& solve, const SolverOptions& options);
   void SetCorrection(const SE3& T_world_predicted, const SE3& T_world_estimated);
 
+  /// A window that follows the scene settles within five rounds, but for the first ones of a jerk.
+  /// Unlike has_converged, this does not depend on the tolerance and the rounds of the options.
+  bool IsRestless() const { return restless_rounds >= kRoundsToSettle; }
   double InlierShare() const { return points > 0 ? static_cast<double>(inliers) / points : 0.0; }
 };
 

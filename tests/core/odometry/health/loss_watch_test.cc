@@ -14,7 +14,13 @@ WindowStatistics Window(int index, int inliers, unsigned flags = 0) {
   window.points = 100;
   window.inliers = inliers;
   window.flags = flags;
-  window.rounds = 8;
+  return window;
+}
+
+/// A window of many inliers that settles, or does not.
+WindowStatistics Settling(int index, bool settles) {
+  WindowStatistics window = Window(index, 95);
+  window.restless_rounds = settles ? 2 : 5;
   return window;
 }
 
@@ -40,12 +46,14 @@ TEST(LossWatch, IsLostSinceTheInliersWentAway) {
 }
 
 TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
-  for (const unsigned flag : {kFlagNotConverged, kFlagReverted}) {
+  for (const bool is_reverted : {false, true}) {
     LossWatch watch({});
     // Every seventh settles: no unbroken spell, and yet lost after the span.
     int first_lost = -1;
     for (int i = 0; i < 200 && first_lost < 0; ++i) {
-      const auto since_ns = watch.Update(Window(i, 95, i % 7 == 6 ? 0u : flag));
+      const bool settles = i % 7 == 6;
+      const auto since_ns = watch.Update(is_reverted ? Window(i, 95, settles ? 0u : +kFlagReverted)
+                                                     : Settling(i, settles));
       if (!since_ns) continue;
       first_lost = i;
       EXPECT_LE(*since_ns, kWindow_ns);
@@ -59,7 +67,7 @@ TEST(LossWatch, AsksForMoreWindowsThatSettleWhilePredictionsFail) {
     LossWatch watch({});
     bool is_lost = false;
     for (int i = 0; i < 200; ++i) {
-      WindowStatistics window = Window(i, 95, i % 2 == 0 ? 0u : kFlagNotConverged);
+      WindowStatistics window = Settling(i, i % 5 < 2);
       window.correction_m = correction_m;
       is_lost |= watch.Update(window).has_value();
     }
@@ -70,17 +78,25 @@ TEST(LossWatch, AsksForMoreWindowsThatSettleWhilePredictionsFail) {
 TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
   LossWatch watch({});
   for (int i = 0; i < 300; ++i) {
-    EXPECT_FALSE(watch.Update(Window(i, 95, i % 2 == 0 ? 0u : kFlagNotConverged)));
+    EXPECT_FALSE(watch.Update(Settling(i, i % 2 == 0)));
   }
 }
 
-TEST(LossWatch, DoesNotAskAWindowOfTwoRoundsToSettle) {
-  LossWatch watch({});
-  for (int i = 0; i < 300; ++i) {
-    WindowStatistics window = Window(i, 95, kFlagNotConverged);
-    window.rounds = 2;
-    EXPECT_FALSE(watch.Update(window)) << i;
+/// Whether a window settled does not depend on the tolerance or the rounds that the options give.
+TEST(LossWatch, AWindowIsRestlessWhileStepsAreLarge) {
+  SolverOptions options;
+  options.step_tolerance = {1e-9, 1e-9};
+  WindowStatistics window;
+  SolveSummary solve;
+  solve.iterations = 1;
+  for (const double step_m : {0.1, 0.05, 0.02, 0.004, 0.003, 0.002}) {
+    solve.step = {step_m, 0.0};
+    window.Add(solve, options);
   }
+  // The third step lets 8 mm expect, the fourth one 0.8 mm.
+  EXPECT_EQ(window.restless_rounds, 3);
+  EXPECT_EQ(window.rounds, 6);
+  EXPECT_FALSE(window.has_converged);
 }
 
 }  // namespace
