@@ -21,6 +21,14 @@ MapPyramid MakeMap(const PlaneFitOptions& plane, const std::vector<Eigen::Vector
   return map;
 }
 
+/// from, from + step, ... below `to`.
+std::vector<double> Steps(double from, double to, double step) {
+  std::vector<double> steps;
+  const auto count = static_cast<int>(std::ceil((to - from) / step - 1e-9));
+  for (int i = 0; i < count; ++i) steps.push_back(from + step * i);
+  return steps;
+}
+
 TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
   // A noisy floor: small planes of it tilt, and the wide one hardly does. (It does not lie between
   // voxels: there, the points of both would be nearer to each other than their spacing.)
@@ -53,8 +61,8 @@ TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
 TEST(MapPyramid, TakesTheFinePlaneWhereTheWideOneIsNotThin) {
   // Two steps of 0.3 m: at the middle of one, its own level.
   std::vector<Eigen::Vector3d> stairs;
-  for (double x = -1.5; x < 1.5; x += 0.05) {
-    for (double y = -1.5; y < 1.5; y += 0.05) {
+  for (const double x : Steps(-1.5, 1.5, 0.05)) {
+    for (const double y : Steps(-1.5, 1.5, 0.05)) {
       stairs.emplace_back(x, y, 0.3 * std::floor(x / 0.5));
     }
   }
@@ -68,12 +76,12 @@ TEST(MapPyramid, TakesTheFinePlaneWhereTheWideOneIsNotThin) {
 
 TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
   std::vector<Eigen::Vector3d> wall_then_post;
-  for (double y = -4.0; y < 4.0; y += 0.05) {
-    for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(5.0, y, z);
+  for (const double y : Steps(-4.0, 4.0, 0.05)) {
+    for (const double z : Steps(-2.0, 2.0, 0.05)) wall_then_post.emplace_back(5.0, y, z);
   }
   // A post of 0.2 m, its face 0.35 m before the wall: the coarser levels have no room for it.
-  for (double y = 1.5; y < 1.71; y += 0.05) {
-    for (double z = -2.0; z < 2.0; z += 0.05) wall_then_post.emplace_back(4.65, y, z);
+  for (const double y : Steps(1.5, 1.71, 0.05)) {
+    for (const double z : Steps(-2.0, 2.0, 0.05)) wall_then_post.emplace_back(4.65, y, z);
   }
   const MapPyramid map = MakeMap({}, wall_then_post);
   const Eigen::Vector3f ray(1.0, 0.0, 0.0);
@@ -91,12 +99,12 @@ TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
   // sampled sparsely around it.
   testing::Random random(13);
   std::vector<Eigen::Vector3d> points;
-  for (double y = -1.0; y < 1.0; y += 0.01) {
+  for (const double y : Steps(-1.0, 1.0, 0.01)) {
     const double x = 5.0 + random.Uniform(0.0, 0.3);
     points.emplace_back(x, y, random.Gaussian(0.003));
   }
   for (double z : {-1.4, -0.7, 0.7, 1.4}) {
-    for (double y = -2.0; y < 2.0; y += 0.03) {
+    for (const double y : Steps(-2.0, 2.0, 0.03)) {
       points.emplace_back(5.0 + random.Uniform(0.0, 0.3), y, z);
     }
   }
@@ -116,8 +124,8 @@ TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
 
 TEST(MapPyramid, TakesAPlaneAlongTheRayWhereThereIsNoOther) {
   std::vector<Eigen::Vector3d> ground;
-  for (double x = -1.0; x < 1.0; x += 0.05) {
-    for (double y = -1.0; y < 1.0; y += 0.05) ground.emplace_back(x, y, 0.0);
+  for (const double x : Steps(-1.0, 1.0, 0.05)) {
+    for (const double y : Steps(-1.0, 1.0, 0.05)) ground.emplace_back(x, y, 0.0);
   }
   const MapPyramid map = MakeMap({}, ground);
   Plane plane = map.FindPlane({{0, 0, 0}, {0.999F, 0.0F, -0.0447F}});

@@ -58,12 +58,12 @@ TEST(PlaneCells, GivesTheSameToThreadsThatAskAtOnce) {
   cells.Resize(200);
   std::vector<std::thread> threads;
   std::array<int, 4> wrong{};
-  for (std::size_t t = 0; t < wrong.size(); ++t) {
-    threads.emplace_back([&, t] {
+  for (int& of_thread : wrong) {
+    threads.emplace_back([&] {
       for (std::uint32_t i = 0; i < 200 * 8; ++i) {
         const FittedPlane plane =
             cells.Get(i / 8, i % 8, 9, [&] { return PlaneNumber(static_cast<int>(i)); });
-        wrong[t] += plane.offset_m != static_cast<float>(i) || !plane.exists();
+        of_thread += plane.offset_m != static_cast<float>(i) || !plane.exists();
       }
     });
   }

@@ -21,7 +21,7 @@ std::vector<Eigen::Vector3d> RandomPoints(int count, double half_size,
   testing::Random random(seed);
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < count; ++i) {
-    points.push_back(center + random.PlaceIn(Eigen::Vector3d::Constant(half_size)));
+    points.emplace_back(center + random.PlaceIn(Eigen::Vector3d::Constant(half_size)));
   }
   return points;
 }
@@ -209,8 +209,8 @@ TEST(VoxelHashMap, OfEquallyNearPointsTheOwnVoxelsComeFirstInTheOrderOfInsertion
     map.Nearest(query, k, &found);
     std::vector<Eigen::Vector3d> result;
     for (int i = 0; i < found.count; ++i) {
-      result.push_back(found.origin_world + Eigen::Vector3d(found.x[i], found.y[i], found.z[i]) -
-                       query);
+      result.emplace_back(found.origin_world + Eigen::Vector3d(found.x[i], found.y[i], found.z[i]) -
+                          query);
     }
     return result;
   };
