@@ -51,13 +51,12 @@ void Odometry::Take(SegmentCloud cloud) {
   }
   if (first_scan_) FindFirstVelocity(cloud);
   if (cloud.is_gap && !support_.was_supported() && !search_) {
-    if (trajectory_.empty()) {
-      Forget();
+    if (!trajectory_.empty()) {
+      SettleWindow(cloud.end_ns);
+      window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
       return;
     }
-    SettleWindow(cloud.end_ns);
-    window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
-    return;
+    Forget(cloud.end_ns);
   }
   if ((cloud.is_gap || !HasMap()) && !search_) BeginSearch();
   if (!search_) {
@@ -82,10 +81,10 @@ void Odometry::Start(const SegmentCloud& cloud) {
 
 /// What was seen once, before a gap, tells neither where the body is behind it nor how it moved:
 /// the recording begins behind the gap.
-void Odometry::Forget() {
+void Odometry::Forget(std::int64_t until_ns) {
   map_ = MapPyramid(options_.map);
   first_pose_.reset();
-  started_ = false;
+  window_ = MakeWindow(until_ns, SE3());
 }
 
 /// Whether there is something that points can agree with.

@@ -69,7 +69,7 @@ class Odometry {
 
  private:
   void Start(const SegmentCloud& cloud);
-  void Forget();
+  void Forget(std::int64_t until_ns);
   void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau, unsigned flags);
   void FindFirstVelocity(const SegmentCloud& cloud);
   void Take(SegmentCloud cloud);
