@@ -77,24 +77,30 @@ void ScanSampler::Note(const LidarScan& scan) {
     // Weighted sampling without replacement: the smallest of exponential variates whose rates are
     // the weights (Efraimidis and Spirakis, 2006).
     const float key = variates_[i] / std::sqrt(static_cast<float>(squared));
-    moment->push_back({point.xyz_m, point.intensity, point.t_ns, key, lidar});
+    if (key > moment->largest_key) continue;
+    moment->points.push_back({point.xyz_m, point.intensity, point.t_ns, key, lidar});
+    if (moment->points.size() > 2 * options_.points_per_moment) Thin(moment);
   }
-  for (auto& [index, kept] : moments_) Thin(&kept);
+  for (auto& [index, kept] : moments_) {
+    Thin(&kept);
+    kept.points.shrink_to_fit();
+  }
   while (moments_.size() > options_.max_moments) DropEveryOther();
 }
 
 void ScanSampler::Thin(Moment* moment) {
+  std::vector<Kept>& points = moment->points;
   const std::size_t count = options_.points_per_moment;
-  if (moment->size() <= count) return;
+  if (points.size() <= count) return;
   keys_.clear();
-  for (const Kept& kept : *moment) keys_.push_back(kept.key);
+  for (const Kept& kept : points) keys_.push_back(kept.key);
   const auto largest = keys_.begin() + static_cast<std::ptrdiff_t>(count) - 1;
   std::nth_element(keys_.begin(), largest, keys_.end());
-  moment->erase(std::remove_if(moment->begin(), moment->end(),
-                               [&](const Kept& kept) { return kept.key > *largest; }),
-                moment->end());
-  if (moment->size() > count) moment->resize(count);  // equal keys
-  moment->shrink_to_fit();
+  moment->largest_key = *largest;
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](const Kept& kept) { return kept.key > *largest; }),
+               points.end());
+  if (points.size() > count) points.resize(count);  // equal keys
 }
 
 void ScanSampler::DropEveryOther() {
@@ -110,7 +116,7 @@ std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory) const 
   std::vector<WorldPoint> points;
   for (const auto& [index, moment] : moments_) {
     const std::int64_t moment_ns = *origin_ns_ + index * options_.moment_ns;
-    for (const Kept& kept : moment) {
+    for (const Kept& kept : moment.points) {
       if (!place_along.Enter(kept.t_ns)) continue;
       const Eigen::Vector3d p_lidar = TurnUp(kept.p_lidar_m, turn_rad).cast<double>();
       const Eigen::Vector3d p_body = kept.lidar < segmenter_.T_body_lidar.size()

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -52,7 +53,11 @@ class ScanSampler {
     float key;  ///< Those with the smallest are kept.
     std::uint16_t lidar;
   };
-  using Moment = std::vector<Kept>;
+  struct Moment {
+    std::vector<Kept> points;
+    /// Once there were too many: larger ones are not wanted.
+    float largest_key = std::numeric_limits<float>::infinity();
+  };
 
   /// Null if it is not kept.
   Moment* MomentAt(std::int64_t index) { return index % stride_ == 0 ? &moments_[index] : nullptr; }
