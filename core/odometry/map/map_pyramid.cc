@@ -8,6 +8,21 @@
 #include <string>
 
 namespace trajlo {
+namespace {
+
+/// A plane is thinner than another if its thickness is below this share of the other's: that of
+/// eight neighbours is known to a quarter.
+constexpr float kThinner = 0.85F;
+
+/// Whether a place belongs to a plane of a coarser level. Farther off stands something else.
+bool IsNear(const FittedPlane& plane, const Eigen::Vector3d& from_center) {
+  const float distance_m =
+      std::abs(plane.normal_world.dot(from_center.cast<float>()) - plane.offset_m);
+  return distance_m <=
+         static_cast<float>(PlaneFitOptions::kMaxWideDistanceInWidths) * plane.width_m;
+}
+
+}  // namespace
 
 /// Queries on their way from the coarsest level to the finest.
 struct MapPyramid::Batch {
@@ -19,6 +34,16 @@ struct MapPyramid::Batch {
     int level;
     bool is_wide = false;
     bool is_grazed = false;
+
+    /// By a plane of a finer level. One that is no thinner shows noise, and nothing of the
+    /// surface's shape.
+    bool IsReplacedBy(const FittedPlane& finer, bool is_finer_grazed,
+                      const Eigen::Vector3d& place_world) const {
+      if (!plane.exists()) return true;
+      if (is_finer_grazed || is_grazed) return is_grazed;
+      return finer.thickness_m < kThinner * plane.thickness_m ||
+             !IsNear(plane, place_world - center_world);
+    }
   };
   const PlaneQuery* asked;
   std::array<Query, kMaxBatch> queries;
@@ -80,13 +105,13 @@ void MapPyramid::AskLevel(int i, Batch* batch) const {
     if (!plane.exists()) continue;
     Batch::Query& query = batch->queries[q];
     const bool is_grazed = IsGrazed(plane, asked.ray_world);
-    if (is_grazed && query.plane.exists() && !query.is_grazed) continue;
+    if (!query.IsReplacedBy(plane, is_grazed, asked.place_world)) continue;
     query.plane = plane;
     query.center_world = center_world;
     query.level = i;
     query.is_grazed = is_grazed;
-    query.is_wide = i > 0 && !is_grazed &&
-                    IsWideAndThin(plane, (asked.place_world - center_world).cast<float>());
+    query.is_wide = i > 0 && !is_grazed && IsWideAndThin(plane) &&
+                    IsNear(plane, asked.place_world - center_world);
     if (query.is_wide) --still_open;
   }
   batch->open_count = still_open;
@@ -98,12 +123,9 @@ bool MapPyramid::IsGrazed(const FittedPlane& plane, const Eigen::Vector3f& ray_w
   return across * across < sine * sine * ray_world.squaredNorm();
 }
 
-bool MapPyramid::IsWideAndThin(const FittedPlane& plane, const Eigen::Vector3f& from_center) const {
-  const float distance_m = std::abs(plane.normal_world.dot(from_center) - plane.offset_m);
+bool MapPyramid::IsWideAndThin(const FittedPlane& plane) const {
   return plane.thickness_m <= static_cast<float>(PlaneFitOptions::kHalfWeightThickness_m) &&
-         plane.thickness_m < static_cast<float>(plane_.max_wide_flatness) * plane.width_m &&
-         distance_m <=
-             static_cast<float>(PlaneFitOptions::kMaxWideDistanceInWidths) * plane.width_m;
+         plane.thickness_m < static_cast<float>(plane_.max_wide_flatness) * plane.width_m;
 }
 
 void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const {

@@ -51,6 +51,10 @@ struct Plane {
 /// one spans several scan lines. Elsewhere the finest map that has a plane answers, where points
 /// are dense and planes small; where it has none (far away, on sparse rings, in a part of the world
 /// just entered) the next coarser one, whose voxels reach farther.
+///
+/// But a finer plane is taken only if it is thinner. The shape of a surface makes planes the thinner,
+/// the smaller they are; noise does not. Of points that scatter as far as a voxel, every place has
+/// a plane of its own, which passes where one asks: they would hold the sensor where it is.
 class MapPyramid {
  public:
   static constexpr int kMaxLevels = 8;
@@ -90,8 +94,7 @@ class MapPyramid {
   struct Batch;
   void AskLevel(int level, Batch* batch) const;
   bool IsGrazed(const FittedPlane& plane, const Eigen::Vector3f& ray_world) const;
-  /// Whether the plane of a coarser level is flat there, and the place on it.
-  bool IsWideAndThin(const FittedPlane& plane, const Eigen::Vector3f& place_from_center) const;
+  bool IsWideAndThin(const FittedPlane& plane) const;
 
   PlaneFitOptions plane_;
   std::int64_t version_ = 0;

@@ -47,7 +47,6 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   const double thickness_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
   const double width_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
   if (width_m < options.min_width_in_spacings * spacing_m ||
-      thickness_m > options.max_thickness_m ||
       thickness_m > PlaneFitOptions::kMaxFlatness * width_m) {
     return {};
   }

@@ -13,7 +13,6 @@ namespace trajlo {
 struct PlaneFitOptions {
   int neighbors = 8;
   static constexpr int kMinNeighbors = 5;
-  double max_thickness_m = 0.15;
   double min_width_in_spacings = 0.53;
   /// Upper bound of l0 / l1.
   static constexpr double kMaxFlatness = 0.5;
@@ -30,8 +29,6 @@ struct PlaneFitOptions {
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "neighbors", neighbors, Range<int>{kMinNeighbors, kMaxNeighbors},
       "Map points taken for a plane (paper: 5).");
-    d(OptionFor::kExperts, "max_thickness_m", max_thickness_m, Range<double>{1e-4, 10.0},
-      "Upper bound of the neighbours' standard deviation across a plane.");
     d(OptionFor::kExperts, "min_width_in_spacings", min_width_in_spacings, Range<double>{0.0, 10.0},
       "Lower bound of the neighbours' standard deviation along a plane's shorter axis, in spacings "
       "of the map's points: neighbours on one scan line have no normal.");

@@ -165,7 +165,6 @@ class FirstInterval {
   RegistrationNormalEquations Linearize(const Vector6d& tau, double coarse) const {
     MapPyramidOptions map = map_options_;
     map.finest.voxel_size_m *= coarse;
-    map.plane.max_thickness_m *= coarse;
     RegistrationOptions registration = registration_;
     registration.kernel_m *= coarse;
     return Hypothesis(cloud_, second_half_, tau, map, threads_)
