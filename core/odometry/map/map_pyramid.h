@@ -52,9 +52,10 @@ struct Plane {
 /// are dense and planes small; where it has none (far away, on sparse rings, in a part of the world
 /// just entered) the next coarser one, whose voxels reach farther.
 ///
-/// But a finer plane is taken only if it is thinner. The shape of a surface makes planes the thinner,
-/// the smaller they are; noise does not. Of points that scatter as far as a voxel, every place has
-/// a plane of its own, which passes where one asks: they would hold the sensor where it is.
+/// But a finer plane is taken only if it is thinner. The shape of a surface makes planes the
+/// thinner, the smaller they are; noise does not. Of points that scatter as far as a voxel, every
+/// place has a plane of its own, which passes where one asks: they would hold the sensor where it
+/// is.
 class MapPyramid {
  public:
   static constexpr int kMaxLevels = 8;
