@@ -90,6 +90,7 @@ void Run::Write() {
   // Only now it is known from when on the run was lost.
   WriteTextFile(folder_.flags(), FlagsCsv(Flags(), written_ns_), IfExists::kReplace);
   std::vector<CloudPoint> points;
+  points.reserve(odometry_.map().finest().size());
   odometry_.map().finest().ForEachPoint([&](const Eigen::Vector3d& p) {
     points.push_back({p.cast<float>(), 0.0F});
   });

@@ -3,9 +3,9 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "core/odometry/map/huge_page_allocator.h"
 #include "core/odometry/map/plane_fit.h"
 
 namespace trajlo {
@@ -23,7 +23,7 @@ class PlaneCells {
   /// For sites with numbers below `sites`. Not beside Get().
   void Resize(std::size_t sites) {
     while (blocks_.size() << kSitesPerBlockLog2 < sites) {
-      blocks_.push_back(std::make_unique<Cell[]>(kPerSite << kSitesPerBlockLog2));
+      blocks_.emplace_back(kPerSite << kSitesPerBlockLog2);
     }
   }
   /// Forgets the planes of a site. Not beside Get().
@@ -70,15 +70,15 @@ class PlaneCells {
            points_around - fitted_at <= fitted_at / 8 + 1;
   }
 
-  static constexpr std::uint32_t kSitesPerBlockLog2 = 10;
+  static constexpr std::uint32_t kSitesPerBlockLog2 = 13;
 
   Cell& At(std::uint32_t site, std::uint32_t cell) const {
     constexpr std::uint32_t kLast = (std::uint32_t{1} << kSitesPerBlockLog2) - 1;
     return blocks_[site >> kSitesPerBlockLog2][kPerSite * (site & kLast) + cell];
   }
 
-  /// They stay where they are while the map grows.
-  std::vector<std::unique_ptr<Cell[]>> blocks_;
+  /// They stay where they are while the map grows. A block is a huge page.
+  mutable std::vector<std::vector<Cell, HugePageAllocator<Cell>>> blocks_;
 };
 
 }  // namespace trajlo

@@ -42,15 +42,16 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   const int n = neighbors.count;
   if (n < PlaneFitOptions::kMinNeighbors) return {};
   const Moments moments(neighbors);
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(moments.covariance);
-  const double thickness_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
-  const double width_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
+  // In floats, which suffice: half a micrometre of thickness where a plane is a metre wide.
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen;
+  eigen.computeDirect(moments.covariance.cast<float>());
+  const double thickness_m = std::sqrt(std::max(0.0F, eigen.eigenvalues()[0]));
+  const double width_m = std::sqrt(std::max(0.0F, eigen.eigenvalues()[1]));
   if (width_m < options.min_width_in_spacings * spacing_m ||
       thickness_m > PlaneFitOptions::kMaxFlatness * width_m) {
     return {};
   }
-  const Eigen::Vector3d normal = eigen.eigenvectors().col(0);
+  const Eigen::Vector3d normal = eigen.eigenvectors().col(0).cast<double>().normalized();
   const Eigen::Vector3d from_center =
       neighbors.origin_world - center_world +
       Eigen::Vector3d(neighbors.x[0], neighbors.y[0], neighbors.z[0]) + moments.mean;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/odometry/map/huge_page_allocator.h"
 #include "core/odometry/map/neighbors.h"
 #include "core/odometry/map/voxel_index.h"
 
@@ -83,7 +84,7 @@ class VoxelHashMap {
   double voxel_size_, inverse_size_, spacing_, radius_;
   std::uint32_t points_of_site_;
   VoxelIndex index_;
-  std::vector<Block> blocks_;
+  std::vector<Block, HugePageAllocator<Block>> blocks_;
   std::vector<std::uint32_t> free_blocks_, free_sites_;
   std::size_t site_count_ = 0;
   std::size_t point_count_ = 0;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/odometry/map/huge_page_allocator.h"
 #include "manifolds/eigen_abi.h"
 
 namespace trajlo {
@@ -113,7 +114,7 @@ class VoxelIndex {
   void RemoveFromTable(std::uint64_t key);
   void Grow();
 
-  std::vector<Brick> bricks_;
+  std::vector<Brick, HugePageAllocator<Brick>> bricks_;
   std::vector<std::uint32_t> free_bricks_;
   std::vector<Place> table_;  ///< A power of two of them, at most half full.
   std::size_t size_ = 0;

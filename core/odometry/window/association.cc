@@ -71,6 +71,7 @@ int SegmentAssociation::Finish(std::vector<RegistrationPoint>* associated) {
   round_.reset();
   if (searched == 0) return 0;
   associated->clear();
+  associated->reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Plane& plane = planes_[i];
     if (!plane.exists()) continue;
