@@ -44,7 +44,6 @@ class LossWatch {
   struct Window {
     std::int64_t end_ns;
     bool is_settled;
-    double squared_correction_m2;
   };
   bool TooFewInliers(const WindowStatistics& window);
   bool TooFewSettled(const WindowStatistics& window);

@@ -62,23 +62,13 @@ TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
   }
 }
 
-TEST(LossWatch, AsksForMoreWindowsThatSettleWhilePredictionsFail) {
-  for (const double correction_m : {0.5, 1.5}) {
-    LossWatch watch({});
-    bool is_lost = false;
-    for (int i = 0; i < 200; ++i) {
-      WindowStatistics window = Settling(i, i % 5 < 2);
-      window.correction_m = correction_m;
-      is_lost |= watch.Update(window).has_value();
-    }
-    EXPECT_EQ(is_lost, correction_m > 1.0);
-  }
-}
-
+/// Nor while predictions are far off: so it is in fast turns.
 TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
   LossWatch watch({});
   for (int i = 0; i < 300; ++i) {
-    EXPECT_FALSE(watch.Update(Settling(i, i % 2 == 0)));
+    WindowStatistics window = Settling(i, i % 2 == 0);
+    window.correction_rad = 0.1;
+    EXPECT_FALSE(watch.Update(window));
   }
 }
 
