@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""trajlo beside KISS-ICP and MAD-ICP, on simulated recordings with exact truth.
+
+  python3 -m venv peers && peers/bin/pip install kiss-icp
+  peers/bin/python scripts/compare_peers.py --output runs/peers
+simulates the scenes, runs trajlo and each peer that this Python can import, one thread each, and
+prints a table (Markdown): position RMSE in metres after SE(3) alignment, and seconds of CPU of the
+whole process. What is already in the folder is not made again.
+
+All run with the options they come with; KISS-ICP's voxels are a hundredth of its range, 1 m, which
+is wide for rooms: --kiss_icp_voxel_m gives others. The peers have one pose a scan and do not say
+for when: the best of its begin, middle and end counts. MAD-ICP is built on the spot:
+  peers/bin/pip install "scikit-build-core<0.10" pybind11 "cmake<4" ninja
+  peers/bin/pip install --no-build-isolation mad-icp
+"""
+import argparse
+import importlib.util
+import json
+import pathlib
+import resource
+import subprocess
+import sys
+
+import numpy as np
+
+SCENARIOS = ("office_os0_64", "hall_os1_16", "courtyard_os1_16", "corridor_vlp16", "forest_mid360",
+             "bursts_xt32", "car_park_os1_128", "manhattan_hdl32", "motorway_start_hdl64")
+PEERS = {"kiss_icp": "KISS-ICP", "mad_icp": "MAD-ICP"}
+# At which share of its scan a pose is taken to be.
+TIMES_IN_SCAN = {"begin": 0.0, "middle": 0.5, "end": 1.0}
+MIN_RANGE_M = 0.1
+
+
+def read_scan(path):
+    """Points in the LiDAR frame (n x 3, m), and their times since the first of them (s)."""
+    content = path.read_bytes()
+    begin = content.index(b"DATA binary\n") + len(b"DATA binary\n")
+    header = dict(line.split(" ", 1) for line in content[:begin].decode().splitlines()[1:])
+    fields = header["FIELDS"].split()
+    table = np.frombuffer(content, np.float32, offset=begin).reshape(-1, len(fields))
+    points = table[:, :3].astype(float)
+    times_s = table[:, fields.index("time")].astype(float)
+    usable = np.isfinite(points).all(axis=1) & (np.linalg.norm(points, axis=1) > MIN_RANGE_M)
+    points, times_s = points[usable], times_s[usable]
+    return points, times_s - times_s.min(initial=np.inf)
+
+
+def kiss_icp_poses(scans, _, voxel_m):
+    from kiss_icp.config.parser import load_config
+    from kiss_icp.kiss_icp import KissICP
+    config = load_config(None)
+    # The default is what its command does where no voxel size is given.
+    config.mapping.voxel_size = voxel_m or config.data.max_range / 100.0
+    config.registration.max_num_threads = 1
+    odometry = KissICP(config)
+    for points, times_s in scans:
+        if len(points):
+            odometry.register_frame(points, times_s / max(times_s.max(), 1e-9))
+        yield odometry.last_pose.copy()
+
+
+def mad_icp_poses(scans, period_s, _):
+    from mad_icp.src.pybind.pypeline import Pipeline, VectorEigen3d
+    # The parameters of its file params.cfg, and one thread.
+    pipeline = Pipeline(1.0 / period_s, True, 0.2, 0.1, 0.8, 0.1, 0.02, 4, 1, False)
+    for number, (points, _) in enumerate(scans):
+        if len(points):
+            pipeline.compute(number * period_s, VectorEigen3d(points))
+        yield np.array(pipeline.currentPose())
+
+
+def rotation_of(quaternion):
+    x, y, z, w = quaternion
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def quaternion_of(rotation):
+    """x, y, z, w: the eigenvector of the largest eigenvalue of a matrix that is linear in R."""
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation
+    k = np.array([[xx - yy - zz, xy + yx, xz + zx, zy - yz],
+                  [xy + yx, yy - xx - zz, yz + zy, xz - zx],
+                  [xz + zx, yz + zy, zz - xx - yy, yx - xy],
+                  [zy - yz, xz - zx, yx - xy, xx + yy + zz]])
+    return np.linalg.eigh(k)[1][:, -1]
+
+
+def write_poses(path, stamps_s, T_world_lidar, T_body_lidar):
+    """Poses of the body in TUM's format."""
+    T_lidar_body = np.linalg.inv(T_body_lidar)
+    with path.open("w") as output:
+        for stamp_s, pose in zip(stamps_s, T_world_lidar):
+            T = T_body_lidar @ pose @ T_lidar_body
+            numbers = [*T[:3, 3], *quaternion_of(T[:3, :3])]
+            output.write(f"{stamp_s:.9f} " + " ".join(f"{x:.9f}" for x in numbers) + "\n")
+
+
+def read_extrinsic(rig):
+    """T_body_lidar of the first LiDAR, from the rig.yaml that the simulator writes."""
+    values = {}
+    for line in rig.read_text().splitlines():
+        name, _, value = line.strip(" -").partition(": ")
+        if name in ("translation_m", "rotation") and name not in values:
+            values[name] = json.loads(value)
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = rotation_of(values["rotation"]), values["translation_m"]
+    return T
+
+
+def follow(peer, recording, output, voxel_m):
+    """Runs a peer over a recording, and writes its poses once for each time that they may have."""
+    stamps_s = np.array([float(t) for t in (recording / "timestamps.txt").read_text().split()])
+    files = sorted((recording / "scans").glob("*.pcd"))
+    period_s = float(np.median(np.diff(stamps_s)))
+    poses_of = {"kiss_icp": kiss_icp_poses, "mad_icp": mad_icp_poses}[peer]
+    poses = list(poses_of((read_scan(file) for file in files), period_s, voxel_m))
+    for name, share in TIMES_IN_SCAN.items():
+        write_poses(output / f"{name}.tum", stamps_s + share * period_s, poses,
+                    read_extrinsic(recording / "rig.yaml"))
+
+
+def cpu_of(command, log):
+    """Seconds of CPU that a command takes, and its exit code."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with log.open("w") as output:
+        code = subprocess.run([str(x) for x in command], stdout=output,
+                              stderr=subprocess.STDOUT).returncode
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, code
+
+
+def error_of(programs, poses, truth, folder):
+    subprocess.run([programs / "trajlo_evaluate", poses, truth, "-o", folder, "--overwrite",
+                    "--noreport"], check=True, stdout=subprocess.DEVNULL)
+    estimate = json.loads((folder / "evaluation.json").read_text())["estimates"][0]
+    return estimate["ate"]["translation_m"]["rmse"]
+
+
+def run_one(method, programs, recording, folder, voxel_m):
+    """{"rmse_m", "cpu_s"} of a method on a recording, or {"failed": exit code}; kept in a file."""
+    kept = folder / "numbers.json"
+    if kept.exists():
+        return json.loads(kept.read_text())
+    folder.mkdir(parents=True, exist_ok=True)
+    if method == "trajlo":
+        command = [programs / "trajlo_run", recording, "-c", recording / "rig.yaml", "-o",
+                   folder / "result", "--threads=1", "--noview", "--overwrite"]
+        trajectories = [folder / "result" / "trajectory.tum"]
+    else:
+        command = [sys.executable, __file__, "--follow", method, recording, folder, voxel_m]
+        trajectories = [folder / f"{name}.tum" for name in TIMES_IN_SCAN]
+    cpu_s, code = cpu_of(command, folder / "log.txt")
+    if code:
+        return {"failed": code}
+    truth = recording / "truth.tum"
+    numbers = {"cpu_s": cpu_s,
+               "rmse_m": min(error_of(programs, t, truth, folder / "evaluation")
+                             for t in trajectories)}
+    kept.write_text(json.dumps(numbers))
+    return numbers
+
+
+def cell(runs):
+    """The median error and the mean time of the runs of one method on one scenario."""
+    failed = [run["failed"] for run in runs if "failed" in run]
+    if failed:
+        return f"exit {failed[0]} |"
+    return (f"{np.median([run['rmse_m'] for run in runs]):.4f} | "
+            f"{np.mean([run['cpu_s'] for run in runs]):.1f}")
+
+
+def main():
+    if sys.argv[1:2] == ["--follow"]:
+        peer, recording, output, voxel_m = sys.argv[2:]
+        follow(peer, pathlib.Path(recording), pathlib.Path(output), float(voxel_m))
+        return
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
+    parser.add_argument("--output", type=pathlib.Path, required=True)
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1])
+    parser.add_argument("--scenarios", nargs="+", default=SCENARIOS,
+                        help="of one LiDAR (trajlo_simulate --list)")
+    parser.add_argument("--kiss_icp_voxel_m", type=float, default=0.0,
+                        help="in place of KISS-ICP's default (another --output keeps both)")
+    arguments = parser.parse_args()
+    programs = arguments.build.resolve() / "apps"
+    peers = [name for name in PEERS if importlib.util.find_spec(name)]
+    if not peers:
+        parser.error(f"{sys.executable} can import none of {', '.join(PEERS)}; see --help")
+    print("| scenario | trajlo RMSE [m] | CPU [s] |" +
+          "".join(f" {PEERS[name]} RMSE [m] | CPU [s] |" for name in peers))
+    print("|---|" + "---|---|" * (1 + len(peers)))
+    for scenario in arguments.scenarios:
+        runs = {method: [] for method in ["trajlo", *peers]}
+        for seed in arguments.seeds:
+            folder = arguments.output / f"{scenario}-s{seed}"
+            recording = folder / "recording"
+            if not (recording / "truth.tum").exists():
+                subprocess.run([programs / "trajlo_simulate", scenario, f"--seed={seed}", "-o",
+                                recording, "--overwrite"], check=True, stdout=subprocess.DEVNULL)
+            for method, of_method in runs.items():
+                of_method.append(run_one(method, programs, recording, folder / method,
+                                         arguments.kiss_icp_voxel_m))
+        print(f"| `{scenario}` | " + " | ".join(cell(of_method) for of_method in runs.values()) +
+              " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
