@@ -7,8 +7,10 @@ namespace {
 /// Lost, when of all windows of this time ...
 constexpr double kSpan_s = 3.0;
 /// ... more than this share did not settle, or were reverted: planes that never settle are not
-/// those of the scene. A fast turn to and fro leaves half of them unsettled, at the right place.
+/// those of the scene. A fast turn to and fro leaves half of them unsettled, at the right place ...
 constexpr double kMaxUnsettledShare = 0.8;
+/// ... but where the poses have a flag, too, half is enough.
+constexpr double kMaxDoubtfulShare = 0.5;
 
 std::int64_t Nanoseconds(double s) { return static_cast<std::int64_t>(s * 1e9); }
 
@@ -32,17 +34,22 @@ bool LossWatch::TooFewInliers(const WindowStatistics& window) {
 }
 
 bool LossWatch::TooFewSettled(const WindowStatistics& window) {
-  const bool is_settled = (window.flags & kFlagReverted) == 0 && !window.IsRestless();
-  recent_.push_back({window.end_ns, is_settled});
-  unsettled_ += is_settled ? 0 : 1;
+  const bool is_unsettled = (window.flags & kFlagReverted) != 0 || window.IsRestless();
+  // That the rounds ran out says no more than that it is unsettled.
+  const bool is_doubtful = is_unsettled && (window.flags & ~unsigned{kFlagNotConverged}) != 0;
+  recent_.push_back({window.end_ns, is_unsettled, is_doubtful});
+  unsettled_ += is_unsettled ? 1 : 0;
+  doubtful_ += is_doubtful ? 1 : 0;
   const std::int64_t begin_ns = window.end_ns - Nanoseconds(kSpan_s);
   while (recent_.front().end_ns < begin_ns) {
-    unsettled_ -= recent_.front().is_settled ? 0 : 1;
+    unsettled_ -= recent_.front().is_unsettled ? 1 : 0;
+    doubtful_ -= recent_.front().is_doubtful ? 1 : 0;
     recent_.pop_front();
     span_is_full_ = true;
   }
-  return span_is_full_ &&
-         static_cast<double>(unsettled_) > kMaxUnsettledShare * static_cast<double>(recent_.size());
+  const auto windows = static_cast<double>(recent_.size());
+  return span_is_full_ && (static_cast<double>(unsettled_) > kMaxUnsettledShare * windows ||
+                           static_cast<double>(doubtful_) > kMaxDoubtfulShare * windows);
 }
 
 }  // namespace trajlo

@@ -43,7 +43,8 @@ class LossWatch {
  private:
   struct Window {
     std::int64_t end_ns;
-    bool is_settled;
+    bool is_unsettled;
+    bool is_doubtful;  ///< Unsettled, and its pose has a flag.
   };
   bool TooFewInliers(const WindowStatistics& window);
   bool TooFewSettled(const WindowStatistics& window);
@@ -52,6 +53,7 @@ class LossWatch {
   std::optional<std::int64_t> few_since_ns_;
   std::deque<Window> recent_;  ///< Those of the last three seconds.
   std::size_t unsettled_ = 0;  ///< Of these.
+  std::size_t doubtful_ = 0;
   bool span_is_full_ = false;
 };
 

@@ -62,6 +62,29 @@ TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
   }
 }
 
+TEST(LossWatch, AsksForMoreWindowsThatSettleWherePosesHaveAFlag) {
+  for (const unsigned flags : {0u, +kFlagNotConverged, +kFlagDegenerate, +kFlagGap}) {
+    LossWatch watch({});
+    bool is_lost = false;
+    for (int i = 0; i < 200; ++i) {
+      WindowStatistics window = Settling(i, i % 5 < 2);
+      window.flags = flags;
+      is_lost |= watch.Update(window).has_value();
+    }
+    EXPECT_EQ(is_lost, (flags & ~unsigned{kFlagNotConverged}) != 0) << flags;
+  }
+}
+
+/// Flags alone are no loss: windows that settle may leave a direction open for ever.
+TEST(LossWatch, IsNotLostWhileWindowsSettleWhateverTheirFlags) {
+  LossWatch watch({});
+  for (int i = 0; i < 300; ++i) {
+    WindowStatistics window = Settling(i, i % 5 > 1);
+    window.flags = kFlagDegenerate;
+    EXPECT_FALSE(watch.Update(window));
+  }
+}
+
 /// Nor while predictions are far off: so it is in fast turns.
 TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
   LossWatch watch({});
