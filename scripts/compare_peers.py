@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """trajlo beside KISS-ICP and MAD-ICP, on simulated recordings with exact truth.
 
-  python3 -m venv peers && peers/bin/pip install kiss-icp
+  python3 -m venv peers && peers/bin/pip install scipy pyyaml kiss-icp
   peers/bin/python scripts/compare_peers.py --output runs/peers
 simulates the scenes, runs trajlo and each peer that this Python can import, one thread each, and
 prints a table (Markdown): position RMSE in metres after SE(3) alignment, and seconds of CPU of the
@@ -23,6 +23,10 @@ import subprocess
 import sys
 
 import numpy as np
+import yaml
+from scipy.spatial.transform import Rotation
+
+from trajlo_campaign import point_arrays
 
 SCENARIOS = ("office_os0_64", "hall_os1_16", "courtyard_os1_16", "corridor_vlp16", "forest_mid360",
              "bursts_xt32", "car_park_os1_128", "manhattan_hdl32", "motorway_start_hdl64")
@@ -34,13 +38,9 @@ MIN_RANGE_M = 0.1
 
 def read_scan(path):
     """Points in the LiDAR frame (n x 3, m), and their times since the first of them (s)."""
-    content = path.read_bytes()
-    begin = content.index(b"DATA binary\n") + len(b"DATA binary\n")
-    header = dict(line.split(" ", 1) for line in content[:begin].decode().splitlines()[1:])
-    fields = header["FIELDS"].split()
-    table = np.frombuffer(content, np.float32, offset=begin).reshape(-1, len(fields))
-    points = table[:, :3].astype(float)
-    times_s = table[:, fields.index("time")].astype(float)
+    _, scan = point_arrays.read_pcd(path.read_bytes())
+    points = np.stack([scan[axis] for axis in "xyz"], axis=1).astype(float)
+    times_s = scan[point_arrays.time_field(scan)].astype(float)
     usable = np.isfinite(points).all(axis=1) & (np.linalg.norm(points, axis=1) > MIN_RANGE_M)
     points, times_s = points[usable], times_s[usable]
     return points, times_s - times_s.min(initial=np.inf)
@@ -70,42 +70,22 @@ def mad_icp_poses(scans, period_s, _):
         yield np.array(pipeline.currentPose())
 
 
-def rotation_of(quaternion):
-    x, y, z, w = quaternion
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def quaternion_of(rotation):
-    """x, y, z, w: the eigenvector of the largest eigenvalue of a matrix that is linear in R."""
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation
-    k = np.array([[xx - yy - zz, xy + yx, xz + zx, zy - yz],
-                  [xy + yx, yy - xx - zz, yz + zy, xz - zx],
-                  [xz + zx, yz + zy, zz - xx - yy, yx - xy],
-                  [zy - yz, xz - zx, yx - xy, xx + yy + zz]])
-    return np.linalg.eigh(k)[1][:, -1]
-
-
 def write_poses(path, stamps_s, T_world_lidar, T_body_lidar):
     """Poses of the body in TUM's format."""
     T_lidar_body = np.linalg.inv(T_body_lidar)
     with path.open("w") as output:
         for stamp_s, pose in zip(stamps_s, T_world_lidar):
             T = T_body_lidar @ pose @ T_lidar_body
-            numbers = [*T[:3, 3], *quaternion_of(T[:3, :3])]
+            numbers = [*T[:3, 3], *Rotation.from_matrix(T[:3, :3]).as_quat()]
             output.write(f"{stamp_s:.9f} " + " ".join(f"{x:.9f}" for x in numbers) + "\n")
 
 
 def read_extrinsic(rig):
     """T_body_lidar of the first LiDAR, from the rig.yaml that the simulator writes."""
-    values = {}
-    for line in rig.read_text().splitlines():
-        name, _, value = line.strip(" -").partition(": ")
-        if name in ("translation_m", "rotation") and name not in values:
-            values[name] = json.loads(value)
+    pose = yaml.safe_load(rig.read_text())["sensor"]["T_body_lidar"][0]
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = rotation_of(values["rotation"]), values["translation_m"]
+    T[:3, :3] = Rotation.from_quat(pose["rotation"]).as_matrix()
+    T[:3, 3] = pose["translation_m"]
     return T
 
 
@@ -184,7 +164,7 @@ def main():
     parser.add_argument("--scenarios", nargs="+", default=SCENARIOS,
                         help="of one LiDAR (trajlo_simulate --list)")
     parser.add_argument("--kiss_icp_voxel_m", type=float, default=0.0,
-                        help="in place of KISS-ICP's default (another --output keeps both)")
+                        help="in place of KISS-ICP's default")
     arguments = parser.parse_args()
     programs = arguments.build.resolve() / "apps"
     peers = [name for name in PEERS if importlib.util.find_spec(name)]
@@ -202,8 +182,9 @@ def main():
                 subprocess.run([programs / "trajlo_simulate", scenario, f"--seed={seed}", "-o",
                                 recording, "--overwrite"], check=True, stdout=subprocess.DEVNULL)
             for method, of_method in runs.items():
-                of_method.append(run_one(method, programs, recording, folder / method,
-                                         arguments.kiss_icp_voxel_m))
+                voxel_m = arguments.kiss_icp_voxel_m if method == "kiss_icp" else 0.0
+                name = f"{method}_{voxel_m:g}m" if voxel_m else method
+                of_method.append(run_one(method, programs, recording, folder / name, voxel_m))
         print(f"| `{scenario}` | " + " | ".join(cell(of_method) for of_method in runs.values()) +
               " |", flush=True)
 

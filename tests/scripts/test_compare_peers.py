@@ -22,16 +22,14 @@ def random_pose(random):
     return T
 
 
-@unittest.skipIf(np is None, "python3-numpy and python3-scipy are not installed")
+@unittest.skipIf(np is None, "python3-numpy, python3-scipy or python3-yaml is not installed")
 class ComparePeersTest(FolderTest):
-    def test_quaternions_are_those_of_scipy(self):
-        random = np.random.default_rng(1)
-        half_turns = [Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in np.eye(3)]
-        rotations = [random_pose(random)[:3, :3] for _ in range(50)] + half_turns + [np.eye(3)]
-        for R in rotations:
-            q = compare_peers.quaternion_of(R)
-            self.assertTrue(np.allclose(Rotation.from_quat(q).as_matrix(), R, atol=1e-12))
-            self.assertTrue(np.allclose(compare_peers.rotation_of(q), R, atol=1e-12))
+    def test_the_extrinsic_is_that_of_the_rig(self):
+        rig = pathlib.Path(self.folder) / "rig.yaml"
+        rig.write_text("sensor:\n  T_body_lidar:\n    - translation_m: [1, 2, 3]\n"
+                       "      rotation: [0, 0, 0.7071067811865476, 0.7071067811865476]\n")
+        T = compare_peers.read_extrinsic(rig)
+        self.assertTrue(np.allclose(T @ [1, 0, 0, 1], [1, 3, 3, 1]))
 
     def test_a_peer_that_knows_the_truth_is_right_about_the_body(self):
         random = np.random.default_rng(2)

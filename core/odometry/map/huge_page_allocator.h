@@ -10,10 +10,9 @@
 
 namespace trajlo {
 
-/// Allocates for a standard container, what is large in huge pages of 2 MiB where the system has
-/// them. A map is read all over: with pages of 4 KiB, finding a page costs about as much as what
-/// is read from it. What is large goes back to the system when it is freed, as an array does that
-/// has grown into a larger one.
+/// An allocator for standard containers. Large arrays get huge pages (2 MiB), where the system has
+/// them: a map is read all over, and with pages of 4 KiB the processor spends much of its time on
+/// finding them. An array that is freed goes back to the system at once.
 template <typename T>
 class HugePageAllocator {
  public:
