@@ -81,7 +81,7 @@ std::string RunSummary::MissingInput() const {
   }
   if (static_cast<double>(times.exchanged) > kSizeableShare * scans) {
     parts.push_back(std::to_string(times.exchanged) + " of " + std::to_string(times.scans) +
-                    " scans seem to be out of order, by what they show");
+                    " scans may be out of order, by what they show");
   }
   if (static_cast<double>(times.before_first_pose) > kSizeableShare * scans) {
     parts.push_back(

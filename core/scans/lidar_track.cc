@@ -54,7 +54,8 @@ void LidarTrack::NoteAt(const ScanPlace& place, const LidarScan& scan, const Sca
   stands_still_ = false;
   memory_.Add(place.begin_ns, scan);
   ScanView view(scan);
-  if (!scan.has_point_times && AreExchangedByView(view)) exchanged_ += 2;
+  if (!scan.has_point_times && MayBeExchanged(view)) exchanged_ += 2;
+  is_last_reordered_ = false;
   views_.push_back(std::move(view));
   if (views_.size() > 3) views_.pop_front();
 }
@@ -286,6 +287,7 @@ void LidarTrack::HandOn(HeldScan* held, ScanFate fate, const ScanPlace& place) {
   NoteAt(place, held->scan, held->times);
   if (fate == ScanFate::kHandedOn && held->overtaken > 0) fate = ScanFate::kReordered;
   if (held->is_exchanged) fate = ScanFate::kRetimed;
+  is_last_reordered_ = fate == ScanFate::kReordered;
   const std::int64_t arrival = held->arrival;
   Remove(held, fate, Difference(place.begin_ns, held->times.begin_ns));
   // Those that came before it are overtaken; for some it is too late now.

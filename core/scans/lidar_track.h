@@ -108,8 +108,9 @@ class LidarTrack {
     /// The first LiDAR had fallen silent before this one spoke.
     bool never_together;
   };
-  /// Motion-corrected scans that, by their views, have each other's points, in spite of stamps that
-  /// go on.
+  /// Motion-corrected scans that seem to have each other's points: by their views, in spite of
+  /// stamps that go on; or by the order in which they came, where the views do not confirm their
+  /// stamps.
   std::int64_t exchanged() const { return exchanged_; }
   /// Scans whose points have all one time, or those whose points do not: the fewer ones.
   std::int64_t odd_point_times() const { return std::min(with_one_time_, with_several_times_); }
@@ -136,7 +137,8 @@ class LidarTrack {
   bool IsSameClock(std::size_t i, const Others& others) const;
   bool IsNextByView(std::size_t i) const;
   std::size_t FirstByView(std::size_t next) const;
-  bool AreExchangedByView(const ScanView& next) const;
+  std::optional<double> WayIfExchanged(const ScanView& next) const;
+  bool MayBeExchanged(const ScanView& next) const;
 
   bool Start(const Others& others, bool is_final);
   std::vector<std::int64_t> EvenPace() const;
@@ -166,6 +168,7 @@ class LidarTrack {
   std::int64_t newest_arrival_ = -1;
   std::int64_t first_ns_ = 0;
   std::int64_t last_recorded_begin_ns_ = 0;  ///< Of the last scan that was handed on.
+  bool is_last_reordered_ = false;           ///< The last scan was overtaken by the one before it.
   bool stands_still_ = false;                ///< The last scan got its time because stamps do.
   ScanMemory memory_;
   std::deque<ScanView> views_;  ///< Of the last three scans that were handed on.

@@ -61,16 +61,26 @@ bool LidarTrack::IsNextByView(std::size_t i) const {
   return is_moving && *across < kAlike * neighbors && *two_across < kAlike * *two_behind;
 }
 
-/// True if the way from the last but two to `next` is clearly shorter with the two scans between
-/// them exchanged.
-bool LidarTrack::AreExchangedByView(const ScanView& next) const {
-  if (views_.size() < 3) return false;
+/// How long the way by the views is from the last but two to `next` with the two scans between them
+/// exchanged, in relation to the way as it is.
+std::optional<double> LidarTrack::WayIfExchanged(const ScanView& next) const {
+  if (views_.size() < 3) return std::nullopt;
   const auto begin = ScanView::Difference(views_[0], views_[1]);
   const auto end = ScanView::Difference(views_[2], next);
   const auto begin_exchanged = ScanView::Difference(views_[0], views_[2]);
   const auto end_exchanged = ScanView::Difference(views_[1], next);
-  if (!begin || !end || !begin_exchanged || !end_exchanged) return false;
-  return *begin_exchanged + *end_exchanged < kClearlyNearer * (*begin + *end);
+  if (!begin || !end || !begin_exchanged || !end_exchanged) return std::nullopt;
+  const double way = *begin + *end;
+  if (way == 0.0) return std::nullopt;
+  return (*begin_exchanged + *end_exchanged) / way;
+}
+
+/// True if the last two scans seem to have each other's points: clearly, or if their stamps
+/// contradict the order in which they came, and the views do not clearly confirm the stamps.
+bool LidarTrack::MayBeExchanged(const ScanView& next) const {
+  const auto way = WayIfExchanged(next);
+  if (is_last_reordered_) return !way || *way < 1.0 / kClearlyNearer;
+  return way && *way < kClearlyNearer;
 }
 
 }  // namespace trajlo

@@ -84,6 +84,7 @@ TEST_P(Moving, SwappedScansArePutInOrder) {
   ExpectTrueTimes(result, scans.size());
   EXPECT_EQ(result.report.retimed, 0);
   EXPECT_EQ(result.report.reordered, 3);
+  EXPECT_EQ(result.report.exchanged, 0);
 }
 
 /// Files with wrong names: the stamps go on.
@@ -96,6 +97,24 @@ TEST_P(Moving, ScansWithEachOthersPointsAreCountedIfNothingElseTellsTheirTime) {
   EXPECT_EQ(Sequence(scans).report.exchanged, GetParam() ? 0 : 6);
   EXPECT_EQ(Sequence(Scans(20)).report.exchanged, 0);
   EXPECT_EQ(Sequence(Scans(20, 0.0)).report.exchanged, 0);
+}
+
+/// Half of the points are anywhere, so that views cannot tell the order.
+TEST_P(Moving, SwappedStampsAmongClutterAreCountedIfNothingElseTellsTheirTime) {
+  std::vector<LidarScan> scans = Scans(30);
+  testing::Random random(1);
+  for (LidarScan& scan : scans) {
+    for (std::size_t i = 0; i < scan.points.size(); i += 2) {
+      scan.points[i].xyz_m = random.Vector(1.0, 30.0).cast<float>();
+    }
+  }
+  EXPECT_EQ(Sequence(scans).report.exchanged, 0);
+  for (const std::size_t i : {5u, 12u, 20u}) SwapTimes(&scans[i], &scans[i + 1]);
+  const Result result = Sequence(scans);
+  EXPECT_EQ(result.scans.size(), scans.size());
+  // With point times, scans are what their points say.
+  const std::int64_t mended = result.report.retimed;
+  EXPECT_EQ(result.report.exchanged, GetParam() ? 0 : 6 - mended);
 }
 
 TEST_P(Moving, AShortStepOfTheClockIsNoPause) {
