@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "tests/core/simulation/hollow_cube.h"
+#include "tests/support/bytes_of.h"
 
 namespace trajlo::simulation {
 namespace {
@@ -45,8 +45,8 @@ double StandardDeviation(const std::vector<double>& values) {
   return std::sqrt(squares / n - sum * sum / (n * n));
 }
 
-class EverySensor : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Names, EverySensor, testing::ValuesIn(SensorNames()),
+class EverySensor : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Names, EverySensor, ::testing::ValuesIn(SensorNames()),
                          [](const auto& instance) { return instance.param; });
 
 TEST_P(EverySensor, SeesThinPlanesWithTheTruePoseOfEachPointAndBlurredOnesWithOnePosePerScan) {
@@ -112,8 +112,8 @@ TEST(Simulator, TwoThreadCountsGiveTheSameBytes) {
   for (std::size_t i = 0; i < one.size(); ++i) {
     EXPECT_EQ(one[i].scan.stamp_ns, many[i].scan.stamp_ns);
     ASSERT_EQ(one[i].scan.points.size(), many[i].scan.points.size());
-    EXPECT_EQ(0, std::memcmp(one[i].scan.points.data(), many[i].scan.points.data(),
-                             one[i].scan.points.size() * sizeof(LidarPoint)));
+    EXPECT_TRUE(testing::BytesOf(one[i].scan.points.data(), one[i].scan.points.size()) ==
+                testing::BytesOf(many[i].scan.points.data(), many[i].scan.points.size()));
   }
 }
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
+#include "tests/support/bytes_of.h"
 #include "tests/support/synthetic_world.h"
 
 namespace trajlo {
@@ -158,7 +158,8 @@ TEST(Relocalization, IsTheSameToTheBitForAnyNumberOfThreads) {
   const auto one = Find(sweep, map, Vector6d::Zero(), 1);
   const auto four = Find(sweep, map, Vector6d::Zero(), 4);
   ASSERT_TRUE(one && four);
-  EXPECT_EQ(std::memcmp(one->T_world_begin.data(), four->T_world_begin.data(), 56), 0);
+  EXPECT_TRUE(testing::BytesOf(one->T_world_begin.data(), 7) ==
+              testing::BytesOf(four->T_world_begin.data(), 7));
   EXPECT_EQ(one->tau, four->tau);
 }
 
@@ -168,7 +169,7 @@ TEST(FindPlaces, HasTheTruePlaceAmongAFewDistinctOnes) {
   for (const SE3& truth : kPlaces) {
     std::vector<Eigen::Vector3d> sweep;
     for (const SegmentPoint& point : SweepOf(WorldAt(truth)).registration_points) {
-      sweep.push_back(point.p_body_m.cast<double>());
+      sweep.emplace_back(point.p_body_m.cast<double>());
     }
     const std::vector<SE3> places = FindPlaces(sweep, map.finest(), Everywhere(), 10, &threads);
     ASSERT_FALSE(places.empty());
