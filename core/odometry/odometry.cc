@@ -33,6 +33,7 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
       map_(options.map),
       motion_prior_(options.motion_prior),
       solver_(make_solver(options.solver, &threads_)),
+      inlier_watch_(options.lost.min_inlier_share),
       loss_watch_(options.lost) {}
 
 void Odometry::AddScan(const LidarScan& scan) { segments_.Add(scan); }
@@ -147,6 +148,7 @@ void Odometry::Step(SegmentCloud cloud) {
   }
   Describe(window_, &statistics);
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
+  if (inlier_watch_.HasFew(statistics)) statistics.flags |= kFlagFewInliers;
   doubt_.Update(window_, statistics, motion_prior_.density());
   statistics.flags |= doubt_.flags();
   window_.segments.back().flags = statistics.flags;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/odometry/health/doubt.h"
+#include "core/odometry/health/inlier_watch.h"
 #include "core/odometry/health/support.h"
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
@@ -99,6 +100,7 @@ class Odometry {
   MapPyramid map_;
   MotionPrior motion_prior_;
   std::unique_ptr<WindowSolver> solver_;
+  InlierWatch inlier_watch_;
   LossWatch loss_watch_;
   SupportWatch support_;
   DoubtWatch doubt_;

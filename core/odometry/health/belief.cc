@@ -46,7 +46,6 @@ void Judge(const LostOptions& options, double points_per_error, Window* window,
     statistics->flags |= kFlagNotConverged;
   }
   if (IsUnsupported(*window, newest)) statistics->flags |= kFlagNoPoints;
-  if (statistics->InlierShare() < options.min_inlier_share) statistics->flags |= kFlagFewInliers;
   const WindowCondition condition = ConditionOf(*window, points_per_error);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;

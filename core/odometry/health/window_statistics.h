@@ -17,7 +17,7 @@ enum WindowFlag : unsigned {
   kFlagNotConverged = 1u << 3,  ///< The rounds ran out before the steps became small.
   kFlagDegenerate = 1u << 4,    ///< A direction is held by smoothness and prior alone.
   kFlagLost = 1u << 5,          ///< The scene is no longer followed: see LossWatch.
-  kFlagFewInliers = 1u << 6,    ///< So few points have a plane that it is lost if this goes on.
+  kFlagFewInliers = 1u << 6,    ///< Few points have a plane, or far fewer than usual: InlierWatch.
 };
 
 constexpr unsigned kAllFlags[] = {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/health/inlier_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace trajlo {
+namespace {
+
+constexpr double kMinShare = 0.3;
+
+/// The i-th window, 0.03 s after the one before.
+WindowStatistics Window(int i, double share) {
+  WindowStatistics window;
+  window.end_ns = i * 30'000'000LL;
+  window.points = 1000;
+  window.inliers = static_cast<int>(1000.0 * share);
+  return window;
+}
+
+TEST(InlierWatch, WhatIsFewDependsOnWhatIsUsual) {
+  for (const double usual : {0.95, 0.6, 0.5}) {
+    InlierWatch watch(kMinShare);
+    for (int i = 0; i < 50; ++i) ASSERT_FALSE(watch.HasFew(Window(i, usual))) << i;
+    EXPECT_FALSE(watch.HasFew(Window(50, 0.7 * usual)));
+    EXPECT_TRUE(watch.HasFew(Window(51, 0.62 * usual)));
+    EXPECT_FALSE(watch.HasFew(Window(52, usual)));
+  }
+}
+
+TEST(InlierWatch, SomeAreFewAnywhere) {
+  InlierWatch watch(kMinShare);
+  for (int i = 0; i < 50; ++i) EXPECT_TRUE(watch.HasFew(Window(i, 0.29)));
+  EXPECT_FALSE(watch.HasFew(Window(50, 0.31)));
+}
+
+TEST(InlierWatch, ElsewhereSomethingElseBecomesUsual) {
+  InlierWatch watch(kMinShare);
+  int i = 0;
+  while (i < 1000) ASSERT_FALSE(watch.HasFew(Window(i++, 0.95)));
+  // From a hall into a wood.
+  int few = 0;
+  while (watch.HasFew(Window(i++, 0.55))) ++few;
+  EXPECT_NEAR(0.03 * few, 5.0, 0.1);
+  for (int k = 0; k < 1000; ++k) ASSERT_FALSE(watch.HasFew(Window(i++, 0.55)));
+}
+
+TEST(InlierWatch, AWindowWithoutPointsHasFew) {
+  InlierWatch watch(kMinShare);
+  EXPECT_TRUE(watch.HasFew(WindowStatistics()));
+}
+
+}  // namespace
+}  // namespace trajlo
