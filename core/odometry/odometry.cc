@@ -148,10 +148,7 @@ void Odometry::Step(SegmentCloud cloud) {
   }
   Describe(window_, &statistics);
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
-  if (inlier_watch_.HasFew(statistics)) statistics.flags |= kFlagFewInliers;
-  doubt_.Update(window_, statistics, motion_prior_.density());
-  statistics.flags |= doubt_.flags();
-  window_.segments.back().flags = statistics.flags;
+  Watch(&statistics);
   const int to_keep = SegmentsToKeep();
   while (window_.size() > to_keep) Leave(&statistics);
   Report(&statistics);
@@ -174,6 +171,19 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
     }
     s->milliseconds_solve += watch.Milliseconds();
   }
+}
+
+/// Judges the window by those before it as well.
+void Odometry::Watch(WindowStatistics* statistics) {
+  if (inlier_watch_.HasFew(*statistics)) {
+    statistics->flags |= kFlagFewInliers;
+    // That takes time to show: it holds for all poses that are still here.
+    window_.begin_flags |= kFlagFewInliers;
+    for (Segment& segment : window_.segments) segment.flags |= kFlagFewInliers;
+  }
+  doubt_.Update(window_, *statistics, motion_prior_.density());
+  statistics->flags |= doubt_.flags();
+  window_.segments.back().flags = statistics->flags;
 }
 
 /// The weights follow what this window showed.

@@ -17,6 +17,7 @@ void AddWindowColumns(const WindowStatistics& w, Row* row) {
   row->Add("points", w.points);
   row->Add("inliers", w.inliers);
   row->Add("inlier_share", w.InlierShare());
+  row->Add("agreement", w.agreement);
   row->Add("searched", w.searched);
   row->Add("rounds", w.rounds);
   row->Add("iterations", w.iterations);

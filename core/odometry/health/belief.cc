@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/belief.h"
 
+#include "core/odometry/health/agreement.h"
 #include "core/odometry/health/condition.h"
 #include "core/odometry/health/support.h"
 
@@ -46,6 +47,7 @@ void Judge(const LostOptions& options, double points_per_error, Window* window,
     statistics->flags |= kFlagNotConverged;
   }
   if (IsUnsupported(*window, newest)) statistics->flags |= kFlagNoPoints;
+  statistics->agreement = AgreementOf(*window, newest).worst;
   const WindowCondition condition = ConditionOf(*window, points_per_error);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;

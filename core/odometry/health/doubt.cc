@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/doubt.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "core/odometry/health/support.h"
@@ -9,8 +8,6 @@
 namespace trajlo {
 namespace {
 
-/// The c of MapAgreement.
-constexpr double kFewPoints = 100.0;
 /// Of all points, so many must be on the map before the others extend it.
 constexpr double kToExtendMap = 0.5;
 /// And so many before the place is trusted: nine of ten are where the map has grown at the right
@@ -36,23 +33,6 @@ bool IsBehindPause(const Window& window) {
 
 }  // namespace
 
-MapAgreement AgreementOf(const Window& window, const Segment& segment) {
-  Eigen::Matrix3d all = kFewPoints * Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d on_plane = all;
-  double on_map = 0.0;
-  ForEachPoint(window, segment, 1, [&](const RegistrationPoint& point, bool is_on_plane) {
-    const Eigen::Matrix3d nnt = point.normal_world * point.normal_world.transpose();
-    all += nnt;
-    if (!is_on_plane) return;
-    on_plane += nnt;
-    ++on_map;
-  });
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> shares(on_plane, all,
-                                                                         Eigen::EigenvaluesOnly);
-  const auto points = static_cast<double>(segment.cloud.registration_points.size());
-  return {on_map / std::max(points, 1.0), shares.eigenvalues()[0]};
-}
-
 void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics,
                         const Vector6d& density) {
   unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
@@ -66,9 +46,8 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
   if (unheld != 0) {
     if (flags_ != 0 || MayHaveMoved(window.EndNs(), density)) flags_ = unheld;
   } else if (flags_ == 0) {
-    const double agreement = AgreementOf(window, window.segments.back()).worst;
     const double usual = usual_agreement_.value_or(1.0);
-    usual_agreement_ = usual + (agreement - usual) / kWindows;
+    usual_agreement_ = usual + (statistics.agreement - usual) / kWindows;
   } else if (statistics.has_converged && std::all_of(window.segments.begin(), window.segments.end(),
                                                      [&](const Segment& segment) {
                                                        return Agrees(window, segment, kToTrust);

@@ -17,7 +17,7 @@ enum WindowFlag : unsigned {
   kFlagNotConverged = 1u << 3,  ///< The rounds ran out before the steps became small.
   kFlagDegenerate = 1u << 4,    ///< A direction is held by smoothness and prior alone.
   kFlagLost = 1u << 5,          ///< The scene is no longer followed: see LossWatch.
-  kFlagFewInliers = 1u << 6,    ///< Few points have a plane, or far fewer than usual: InlierWatch.
+  kFlagFewInliers = 1u << 6,    ///< Too few points agree with the map: InlierWatch.
 };
 
 constexpr unsigned kAllFlags[] = {
@@ -49,6 +49,7 @@ struct WindowStatistics {
   /// How far the points moved the newest pose from where the motion prior had put it.
   double correction_m = 0.0;
   double correction_rad = 0.0;
+  double agreement = 0.0;  ///< MapAgreement::worst, of the newest segment.
   /// What the points tell about the direction that they hold least (1/m²), and that direction, in
   /// the body frame: see WindowCondition.
   double smallest_eigenvalue = 0.0;

@@ -83,6 +83,7 @@ class Watched {
     statistics.flags = flags;
     statistics.has_converged = has_converged;
     statistics.restless_rounds = has_converged ? 2 : 5;
+    statistics.agreement = AgreementOf(window, window.segments.back()).worst;
     watch_.Update(window, statistics, density_);
     return watch_.flags();
   }

@@ -9,11 +9,12 @@ namespace {
 constexpr double kMinShare = 0.3;
 
 /// The i-th window, 0.03 s after the one before.
-WindowStatistics Window(int i, double share) {
+WindowStatistics Window(int i, double share, double agreement = 0.97) {
   WindowStatistics window;
   window.end_ns = i * 30'000'000LL;
   window.points = 1000;
   window.inliers = static_cast<int>(1000.0 * share);
+  window.agreement = agreement;
   return window;
 }
 
@@ -42,6 +43,19 @@ TEST(InlierWatch, ElsewhereSomethingElseBecomesUsual) {
   while (watch.HasFew(Window(i++, 0.55))) ++few;
   EXPECT_NEAR(0.03 * few, 5.0, 0.1);
   for (int k = 0; k < 1000; ++k) ASSERT_FALSE(watch.HasFew(Window(i++, 0.55)));
+}
+
+TEST(InlierWatch, FewAreThoseThatAgreeIfItLasts) {
+  InlierWatch watch(kMinShare);
+  int i = 0;
+  while (i < 100) ASSERT_FALSE(watch.HasFew(Window(i++, 0.95)));
+  // A jerk: half a second at most.
+  while (i < 115) ASSERT_FALSE(watch.HasFew(Window(i++, 0.95, 0.5)));
+  while (i < 150) ASSERT_FALSE(watch.HasFew(Window(i++, 0.95)));
+  int unnoticed = 0;
+  while (!watch.HasFew(Window(i++, 0.95, 0.75))) ++unnoticed;
+  EXPECT_NEAR(0.03 * unnoticed, 0.5, 0.05);
+  for (int k = 0; k < 1000; ++k) ASSERT_TRUE(watch.HasFew(Window(i++, 0.95, 0.75)));
 }
 
 TEST(InlierWatch, AWindowWithoutPointsHasFew) {
