@@ -109,8 +109,8 @@ TEST(MarginalizationPrior, PoseByPoseOnALinearProblemEqualsTheFullBatch) {
     for (int k = 0; k + 1 < kPoses; ++k) {
       const Eigen::MatrixXd J = RandomMatrix(&random, 20, 12);
       const Eigen::VectorXd r = RandomMatrix(&random, 20, 1);
-      link_H.push_back(J.transpose() * J);
-      link_g.push_back(J.transpose() * r);
+      link_H.emplace_back(J.transpose() * J);
+      link_g.emplace_back(J.transpose() * r);
       H.block<12, 12>(6 * k, 6 * k) += link_H.back();
       g.segment<12>(6 * k) += link_g.back();
     }

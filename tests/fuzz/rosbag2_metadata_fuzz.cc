@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace trajlo;
   static const fuzz::ScratchFile file("metadata.yaml");
   const std::filesystem::path folder = file.Write(fuzz::AsText(data, size)).parent_path();
-  std::ofstream(folder / "input_0.db3");
+  const std::ofstream empty_bag(folder / "input_0.db3");
   try {
     const Rosbag2Folder bag = ReadRosbag2Folder(folder);
     fuzz::Require(!bag.files.empty(), "a folder that is a bag has files");

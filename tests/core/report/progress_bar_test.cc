@@ -4,8 +4,9 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <poll.h>
-#include <stdlib.h>
 #include <unistd.h>
+
+#include <cstdlib>
 
 namespace trajlo {
 namespace {
