@@ -31,9 +31,13 @@ def draw_error(axes, run):
 
 
 def draw_inliers(axes, run):
-    axes.plot(run.windows["end_s"] - run.begin, 100 * run.windows["inlier_share"],
-              color=theme.STAGES["map"])
-    axes.set(ylabel="points with\na plane [%]", ylim=(0, 100))
+    at = run.windows["end_s"] - run.begin
+    axes.plot(at, 100 * run.windows["inlier_share"], color=theme.STAGES["map"],
+              label="with a plane")
+    axes.plot(at, 100 * run.windows["agreement"], color=theme.STAGES["solve"],
+              label="of these, on it (in the worst direction)")
+    axes.set(ylabel="points [%]", ylim=(0, 105))
+    axes.legend(loc="lower left", ncol=2)
 
 
 def draw_eigenvalue(axes, run, degenerate):

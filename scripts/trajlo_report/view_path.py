@@ -75,6 +75,9 @@ def quantities(times, positions, windows, estimate):
     if len(windows.get("end_s", ())):
         found.append(Quantity("inliers", "points with a plane", "%", interpolated(
             times, windows["end_s"], 100 * windows["inlier_share"]), "viridis", 0))
+        found.append(Quantity("agreement", "points on their plane, in the worst direction", "%",
+                              interpolated(times, windows["end_s"], 100 * windows["agreement"]),
+                              "viridis", 0))
         found.append(Quantity("eigenvalue", "information in the weakest direction", "1/m²",
                               interpolated(times, windows["end_s"], np.maximum(
                                   windows["smallest_eigenvalue"], 1.0)), "viridis", 0, True))

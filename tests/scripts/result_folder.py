@@ -34,11 +34,11 @@ def write_ply(path, columns, comment=""):
 
 def write_windows(path, times, flags):
     """`flags` maps indices of windows to names."""
-    lines = ["index,begin_s,end_s,points,inlier_share,smallest_eigenvalue,segment_ms,associate_ms,"
-             "solve_ms,marginalize_ms,map_ms,flags,flag_names"]
+    lines = ["index,begin_s,end_s,points,inlier_share,agreement,smallest_eigenvalue,segment_ms,"
+             "associate_ms,solve_ms,marginalize_ms,map_ms,flags,flag_names"]
     for i in range(1, len(times)):
         lines.append(f"{i},{BEGIN_S + times[max(i - 4, 0)]:.9f},{BEGIN_S + times[i]:.9f},900,0.9,"
-                     f"0.05,1,2,3,0,1,{int(i in flags)},{flags.get(i, '')}")
+                     f"0.97,0.05,1,2,3,0,1,{int(i in flags)},{flags.get(i, '')}")
     path.write_text("\n".join(lines) + "\n")
 
 

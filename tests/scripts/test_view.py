@@ -179,7 +179,7 @@ class ViewTest(FolderTest):
                                                               {"one": 0.01}))
         page, arrays = self.make(run_data.load(result, estimates))
         self.assertEqual([item["key"] for item in page["path"]["quantities"]],
-                         ["error", "speed", "inliers", "eigenvalue"])
+                         ["error", "speed", "inliers", "agreement", "eigenvalue"])
         errors = 100 * np.interp(arrays["path_t"], estimates[0].times - BEGIN_S,
                                  estimates[0].errors["translation_error_m"])
         np.testing.assert_allclose(arrays["path_error"], errors, atol=1e-3)
