@@ -94,6 +94,10 @@ std::string RunSummary::MissingInput() const {
                     std::to_string(times.scans) +
                     " scans have no point that can be used: the trajectory ends before them");
   }
+  if (times.doubtful_begin_s > kSizeableShare * DataSeconds()) {
+    parts.push_back("by its stamp, the first scan comes " + Seconds(times.doubtful_begin_s) +
+                    " before the next; nothing confirms that, and it was left out");
+  }
   if (times.doubtful_end_s > kSizeableShare * DataSeconds()) {
     parts.push_back("by its stamp, the last scan comes " + Seconds(times.doubtful_end_s) +
                     " after the one before; nothing confirms that, and it was left out");

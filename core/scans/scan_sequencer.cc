@@ -96,6 +96,7 @@ void ScanSequencer::Finish() {
   while (!queue_.empty()) {
     Judge(static_cast<std::size_t>(queue_.front()->held.scan.lidar_id), true);
   }
+  DoubtTheBegin();
   CompareSpans();
   CompareDrifts();
   for (const LidarTrack& track : tracks_) {
@@ -126,7 +127,10 @@ void ScanSequencer::Apply(const Judgement& judgement) {
     return &other->held == judgement.held;
   });
   Count(judgement, &report_);
-  if (judgement.fate == ScanFate::kMisfit) DoubtTheEnd(*judgement.held);
+  if (judgement.fate == ScanFate::kMisfit) {
+    DoubtTheEnd(*judgement.held);
+    if (judgement.held->arrival == 0) dropped_first_ns_ = judgement.held->times.begin_ns;
+  }
   if (IsDropped(judgement.fate)) {
     report_.points += static_cast<std::int64_t>(judgement.held->scan.points.size());
     queue_.erase(entry);
@@ -147,6 +151,13 @@ void ScanSequencer::DoubtTheEnd(const HeldScan& dropped) {
   const auto begin_ns = static_cast<double>(clock.PlaceOf(dropped.scan, dropped.times).begin_ns);
   const double ahead_s = 1e-9 * (begin_ns - static_cast<double>(clock.last().begin_ns));
   report_.doubtful_end_s = std::max(0.0, ahead_s);
+}
+
+/// So has a first scan that is dropped, or it is the only sign that the recording began before.
+void ScanSequencer::DoubtTheBegin() {
+  if (!dropped_first_ns_ || !tracks_[first_lidar_].clock().has_started()) return;
+  const std::int64_t before_ns = Difference(tracks_[first_lidar_].first_ns(), *dropped_first_ns_);
+  report_.doubtful_begin_s = std::max(0.0, 1e-9 * static_cast<double>(before_ns));
 }
 
 void ScanSequencer::Release() {

@@ -7,6 +7,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/scans/lidar_scan.h"
@@ -57,6 +58,7 @@ class ScanSequencer {
   void Judge(std::size_t lidar, bool is_final);
   void Apply(const Judgement& judgement);
   void DoubtTheEnd(const HeldScan& dropped);
+  void DoubtTheBegin();
   void Release();
   void Describe(std::size_t lidar);
   void CompareSpans();
@@ -73,6 +75,7 @@ class ScanSequencer {
   bool has_pose_ = false;
   std::vector<std::vector<Sweep>> before_pose_;  ///< For each LiDAR, what was handed on until then.
   std::size_t first_lidar_ = 0;
+  std::optional<std::int64_t> dropped_first_ns_;  ///< When the first scan of all began, if dropped.
   Queue queue_;  ///< In the order in which they are to be handed on.
 };
 

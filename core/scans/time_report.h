@@ -29,7 +29,9 @@ struct TimeReport {
   std::int64_t before_first_pose = 0;  ///< Scans before the one in which the trajectory begins.
   std::int64_t until_last_point = 0;   ///< Scans up to the last one with a point of use.
 
-  /// How much later the last scan is than the one before, if it was dropped: nothing confirms that.
+  /// How much earlier the first scan is than the next, if it was dropped, and
+  double doubtful_begin_s = 0.0;
+  /// how much later the last scan is than the one before, if it was dropped: nothing confirms that.
   double doubtful_end_s = 0.0;
   /// One LiDAR begins later than another, and ends as much later; or their clocks run apart.
   bool clocks_may_differ = false;

@@ -120,6 +120,11 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
             "by its stamp, the last scan comes 2.5 s after the one before; nothing confirms that, "
             "and it was left out");
   s.times.doubtful_end_s = 0.0;
+  s.times.doubtful_begin_s = 2.2;
+  EXPECT_EQ(s.MissingInput(),
+            "by its stamp, the first scan comes 2.2 s before the next; nothing confirms that, and "
+            "it was left out");
+  s.times.doubtful_begin_s = 0.0;
   s.read.file_is_cut = true;
   s.times.clocks_may_differ = true;
   EXPECT_EQ(s.MissingInput(),

@@ -200,6 +200,17 @@ TEST(ScanSequencer, ALoneScanBehindALongPauseLeavesTheEndInDoubt) {
   }
 }
 
+TEST(ScanSequencer, ALoneScanBeforeALongPauseLeavesTheBeginInDoubt) {
+  for (const std::size_t odd : {0U, 7U}) {
+    std::vector<std::int64_t> stamps = Regular(20);
+    stamps[odd] -= 2100 * kMs;
+    ScanSequencer sequencer(0.5, [](const LidarScan&) {});
+    for (const LidarScan& scan : WithStamps(stamps)) sequencer.Add(scan);
+    sequencer.Finish();
+    EXPECT_NEAR(sequencer.report().doubtful_begin_s, odd == 0 ? 2.2 : 0.0, 1e-9);
+  }
+}
+
 TEST(ScanSequencer, CountsTheScansBeforeTheFirstPose) {
   // The first two have no points. The pose is found when more scans have come, and lies in a sweep.
   std::vector<LidarScan> scans = WithStamps(Regular(20));
