@@ -51,6 +51,12 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
                        " the points leave a direction open, mostly " + Words(weakest->first) +
                        "; the poses may be off by more than it seems (flag degenerate)");
   }
+  const FlaggedPoses few = total("few_inliers");
+  if (few.seconds > kWorthSaying * all_s) {
+    warnings.push_back("for " + SecondsText(few.seconds, all_s) +
+                       " too few points agree with the map; the poses there may be wrong "
+                       "(flag few_inliers)");
+  }
   return warnings;
 }
 

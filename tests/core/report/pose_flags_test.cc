@@ -53,13 +53,15 @@ TEST(FlagWarnings, SayForHowLongAndInWhichDirection) {
   RunSummary summary;
   EXPECT_TRUE(FlagWarnings(summary).empty());
   std::vector<ControlPose> poses = Poses();
+  poses[1].flags = kFlagFewInliers;
   poses[3].flags = kFlagDegenerate;
   summary.flags = PoseFlags(poses, std::nullopt);
   summary.windows.weak_axes = {{"about_z", 2}, {"x", 5}};
   const std::vector<std::string> warnings = FlagWarnings(summary);
-  ASSERT_EQ(warnings.size(), 2u);
+  ASSERT_EQ(warnings.size(), 3u);
   EXPECT_THAT(warnings[0], HasSubstr("2.00 s (50.0 %) in 1 stretch"));
   EXPECT_THAT(warnings[1], HasSubstr("motion along x of the body"));
+  EXPECT_THAT(warnings[2], HasSubstr("for 1.00 s (25.0 %) too few points agree with the map"));
 }
 
 }  // namespace
