@@ -59,6 +59,9 @@ struct Judgement {
 /// stamp of a lone scan before the first pause or behind the last one: it is dropped.
 class LidarTrack {
  public:
+  /// A longer jump ahead is a step of the clock, if nothing else tells.
+  static constexpr std::int64_t kLongestPause_ns = 60'000'000'000;
+
   /// What the other LiDARs tell.
   struct Others {
     /// The LiDAR that came first (null for itself), and how far another may be from it.
@@ -121,8 +124,6 @@ class LidarTrack {
  private:
   /// While so many are held, the oldest waits for more.
   static constexpr std::size_t kMostHeld = 8;
-  /// A longer jump ahead is a step of the clock, if nothing else tells.
-  static constexpr std::int64_t kLongestPause_ns = 60'000'000'000;
 
   void NoteAt(const ScanPlace& place, const LidarScan& scan, const ScanTimes& times);
   ScanPlace PlaceOf(const HeldScan& held) const { return clock_.PlaceOf(held.scan, held.times); }

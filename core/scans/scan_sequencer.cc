@@ -153,10 +153,12 @@ void ScanSequencer::DoubtTheEnd(const HeldScan& dropped) {
   report_.doubtful_end_s = std::max(0.0, ahead_s);
 }
 
-/// So has a first scan that is dropped, or it is the only sign that the recording began before.
+/// So has a first scan that is dropped, or it is the only sign that the recording began before. Too
+/// long before, its stamp is wrong.
 void ScanSequencer::DoubtTheBegin() {
   if (!dropped_first_ns_ || !tracks_[first_lidar_].clock().has_started()) return;
   const std::int64_t before_ns = Difference(tracks_[first_lidar_].first_ns(), *dropped_first_ns_);
+  if (before_ns > LidarTrack::kLongestPause_ns) return;
   report_.doubtful_begin_s = std::max(0.0, 1e-9 * static_cast<double>(before_ns));
 }
 

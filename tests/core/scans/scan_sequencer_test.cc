@@ -201,14 +201,18 @@ TEST(ScanSequencer, ALoneScanBehindALongPauseLeavesTheEndInDoubt) {
 }
 
 TEST(ScanSequencer, ALoneScanBeforeALongPauseLeavesTheBeginInDoubt) {
-  for (const std::size_t odd : {0U, 7U}) {
+  const auto doubtful_begin_s = [](std::size_t odd, std::int64_t shift_ns) {
     std::vector<std::int64_t> stamps = Regular(20);
-    stamps[odd] -= 2100 * kMs;
+    stamps[odd] -= shift_ns;
     ScanSequencer sequencer(0.5, [](const LidarScan&) {});
     for (const LidarScan& scan : WithStamps(stamps)) sequencer.Add(scan);
     sequencer.Finish();
-    EXPECT_NEAR(sequencer.report().doubtful_begin_s, odd == 0 ? 2.2 : 0.0, 1e-9);
-  }
+    return sequencer.report().doubtful_begin_s;
+  };
+  EXPECT_NEAR(doubtful_begin_s(0, 2100 * kMs), 2.2, 1e-9);
+  EXPECT_EQ(doubtful_begin_s(7, 2100 * kMs), 0.0);
+  // No pause is so long: the stamp is wrong.
+  EXPECT_EQ(doubtful_begin_s(0, 3'600'000 * kMs), 0.0);
 }
 
 TEST(ScanSequencer, CountsTheScansBeforeTheFirstPose) {
