@@ -71,7 +71,7 @@ void Odometry::Take(SegmentCloud cloud) {
 /// The first interval: its motion, then its points into the map.
 void Odometry::Start(const SegmentCloud& cloud) {
   started_ = true;
-  const double duration_s = 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns);
+  const double duration_s = cloud.Duration_s();
   Vector6d tau = Vector6d::Zero();
   if (duration_s > 0.0) {
     tau = MotionOfFirstInterval(cloud, options_.initialization, options_.map, options_.registration,
@@ -94,7 +94,7 @@ bool Odometry::HasMap() const { return support_.was_supported() || map_.size() >
 /// A map of one interval alone, and a window that begins where it ends.
 void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau,
                         unsigned flags) {
-  const double duration_s = 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns);
+  const double duration_s = cloud.Duration_s();
   const SE3 T_end = T_begin * se3::Exp(tau);
   EnterMap(cloud, T_begin, T_end, &threads_, &map_);
   const ControlPose first = {cloud.begin_ns, T_begin, flags};
@@ -118,7 +118,7 @@ void Odometry::FindFirstVelocity(const SegmentCloud& cloud) {
   const SegmentCloud first = *std::exchange(first_scan_, std::nullopt);
   if (cloud.is_gap) return;
   const SegmentCloud both = JoinScans(first, cloud);
-  const double duration_s = 1e-9 * static_cast<double>(both.end_ns - both.begin_ns);
+  const double duration_s = both.Duration_s();
   window_.begin_velocity = MotionOfFirstInterval(both, options_.initialization, options_.map,
                                                  options_.registration, &threads_) /
                            duration_s;
@@ -133,6 +133,7 @@ void Odometry::Step(SegmentCloud cloud) {
   const std::vector<SE3> predicted = window_.Poses();
 
   WindowStatistics statistics;
+  statistics.restless = RestlessStep(window_.segments.back().cloud);
   AssociateAndSolve(&statistics);
   statistics.SetCorrection(predicted.back(), window_.segments.back().T_world_end);
   if (IsBlind()) {

@@ -81,8 +81,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
   window_.begin_flags = kFlagGap;
   std::vector<SegmentCloud> segments = search_->TakeSegments();
   if (sweep.cloud.end_ns > sweep.cloud.begin_ns) {
-    window_.begin_velocity =
-        1e9 / static_cast<double>(sweep.cloud.end_ns - sweep.cloud.begin_ns) * sweep.tau;
+    window_.begin_velocity = sweep.tau / sweep.cloud.Duration_s();
   } else {
     const LastSeen& last = search_->last();
     window_.begin_velocity = 1e9 / static_cast<double>(sweep.cloud.begin_ns - last.t_ns) *

@@ -13,16 +13,16 @@
 
 namespace trajlo::testing {
 
-/// A simulated recording, run with default options, beside its truth.
+/// A simulated recording, run with the given options and the poses of its LiDARs, beside its truth.
 struct SimulatedRun {
   std::vector<ControlPose> poses;
   std::vector<Matrix6d> covariances;
   std::vector<SE3> truth;  ///< Of each pose, in the frame of the first one.
   std::optional<std::int64_t> lost_at_ns;
 
-  explicit SimulatedRun(const simulation::Scenario& scenario) {
+  explicit SimulatedRun(const simulation::Scenario& scenario,
+                        OdometryOptions options = OdometryOptions()) {
     const simulation::Simulator simulator(scenario);
-    OdometryOptions options;
     for (const auto& lidar : scenario.rig) {
       options.segmenter.T_body_lidar.push_back(lidar.T_body_lidar);
     }

@@ -2,14 +2,21 @@
 #include "core/odometry/health/window_statistics.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace trajlo {
 namespace {
 
-/// A window that still moves by this much has not settled, whatever tolerance the options ask for.
-constexpr StepTolerance kRestless = {5e-3, 1e-3};
+constexpr double kShortSegment_s = 0.03;
 
 }  // namespace
+
+StepTolerance RestlessStep(const SegmentCloud& newest) {
+  const double seen_s = newest.IsInstant() ? 0.0 : newest.Duration_s();
+  const double longer = std::max(1.0, seen_s / kShortSegment_s);
+  const double factor = longer * std::sqrt(longer);
+  return {kRestlessStep.translation_m * factor, kRestlessStep.rotation_rad * factor};
+}
 
 void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& options) {
   ++rounds;
@@ -24,7 +31,7 @@ void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& optio
     next.translation_m *= std::min(1.0, solve.step.translation_m / last_step_m);
     next.rotation_rad *= std::min(1.0, solve.step.rotation_rad / last_step_rad);
   }
-  if (!next.IsWithin(kRestless)) restless_rounds = rounds;
+  if (!next.IsWithin(restless)) restless_rounds = rounds;
   last_step_m = solve.step.translation_m;
   last_step_rad = solve.step.rotation_rad;
   is_finite = solve.finite;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/odometry/segments/segment_cloud.h"
 #include "core/odometry/solvers/window_solver.h"
 #include "manifolds/se3.h"
 
@@ -25,6 +26,14 @@ constexpr unsigned kAllFlags[] = {
     kFlagDegenerate, kFlagLost, kFlagFewInliers,
 };
 
+/// A window that moves by more than this in a round has not settled, whatever tolerance the options
+/// ask for.
+constexpr StepTolerance kRestlessStep = {5e-3, 1e-3};
+/// The same for a newest segment of any length. Beyond 0.03 s it is more by Δt^1.5, as white
+/// acceleration takes a body off its course: what the points saw on the way lies on no straight
+/// motion, and some planes change in every round, at the right place, too.
+StepTolerance RestlessStep(const SegmentCloud& newest);
+
 /// One line of windows.csv: what happened in one sliding-window solve.
 struct WindowStatistics {
   static constexpr int kRoundsToSettle = 5;
@@ -33,11 +42,12 @@ struct WindowStatistics {
   std::int64_t begin_ns = 0;  ///< First control pose of the window.
   std::int64_t end_ns = 0;    ///< Newest control pose.
   int segments = 0;
-  int points = 0;           ///< Registration points in the window.
-  int inliers = 0;          ///< Those with a plane in the last round.
-  int searched = 0;         ///< Map queries over all rounds; the others kept their plane.
-  int rounds = 0;           ///< associate ↔ solve rounds.
-  int restless_rounds = 0;  ///< After so many of them, more than 5 mm or 1 mrad were to come.
+  int points = 0;    ///< Registration points in the window.
+  int inliers = 0;   ///< Those with a plane in the last round.
+  int searched = 0;  ///< Map queries over all rounds; the others kept their plane.
+  int rounds = 0;    ///< associate ↔ solve rounds.
+  StepTolerance restless = kRestlessStep;
+  int restless_rounds = 0;  ///< After so many of them, a larger step than that was to come.
   int iterations = 0;       ///< Solver steps over all rounds.
   int rejected_steps = 0;   ///< Those that Ceres did not take because they raise the cost.
   double cost_registration = 0.0;

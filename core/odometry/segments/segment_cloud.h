@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -41,6 +42,14 @@ struct SegmentCloud {
   std::vector<Eigen::Vector3d> lidar_origins_body_m;
   std::vector<SegmentPoint> map_points;           ///< Fine: what enters the map.
   std::vector<SegmentPoint> registration_points;  ///< Coarse subset: what is registered.
+
+  double Duration_s() const { return 1e-9 * static_cast<double>(end_ns - begin_ns); }
+  /// A motion-corrected scan: every point belongs to the end.
+  bool IsInstant() const {
+    return !map_points.empty() &&
+           std::all_of(map_points.begin(), map_points.end(),
+                       [](const SegmentPoint& point) { return point.alpha == 1.0F; });
+  }
 };
 
 }  // namespace trajlo

@@ -26,14 +26,6 @@ constexpr double kLongestPrediction_s = 5.0;
 constexpr double kSameTilt_rad = 0.05;
 
 double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
-double Seconds(const SegmentCloud& segment) { return Seconds(segment.end_ns - segment.begin_ns); }
-
-/// Motion-corrected: every point belongs to the end.
-bool IsInstant(const SegmentCloud& segment) {
-  return !segment.map_points.empty() &&
-         std::all_of(segment.map_points.begin(), segment.map_points.end(),
-                     [](const SegmentPoint& point) { return point.alpha == 1.0F; });
-}
 
 /// How far a body gets off its course: three standard deviations of white noise on acceleration, or
 /// a steady acceleration.
@@ -46,9 +38,9 @@ double Reach(double density, double acceleration, double unseen_s) {
 void ReturnSearch::Add(SegmentCloud segment) {
   if (segment.is_gap) segments_.clear();
   if (segment.is_gap || (segments_.empty() && segment.map_points.empty())) return;
-  searched_s_ += Seconds(segment);
-  since_look_s_ += Seconds(segment);
-  if (IsInstant(segment)) segments_.clear();
+  searched_s_ += segment.Duration_s();
+  since_look_s_ += segment.Duration_s();
+  if (segment.IsInstant()) segments_.clear();
   segments_.push_back(std::move(segment));
   // Only the newest first_interval_s: over longer the motion is no constant twist.
   const auto longest_ns = std::llround(1e9 * options_.segmenter.first_interval_s);
@@ -60,7 +52,7 @@ void ReturnSearch::Add(SegmentCloud segment) {
 
 bool ReturnSearch::IsDue() const {
   if (segments_.empty()) return false;
-  if (IsInstant(segments_.back())) return since_look_s_ >= kPatience * searched_s_;
+  if (segments_.back().IsInstant()) return since_look_s_ >= kPatience * searched_s_;
   const double sweep_s = Seconds(segments_.back().end_ns - segments_.front().begin_ns);
   const double enough_s = options_.segmenter.first_interval_s - options_.segmenter.interval_s;
   return sweep_s >= enough_s && since_look_s_ >= std::max(enough_s, kPatience * searched_s_);
@@ -121,7 +113,7 @@ SearchRegion ReturnSearch::Region(std::int64_t t_ns) const {
 ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
   since_look_s_ = 0.0;
   ReturnSweep sweep = Merge();
-  if (IsInstant(sweep.cloud)) {
+  if (sweep.cloud.IsInstant()) {
     sweep.cloud.begin_ns = sweep.cloud.end_ns;
   } else {
     sweep.tau = MotionOfFirstInterval(sweep.cloud, options_.initialization, options_.map,

@@ -43,7 +43,7 @@ struct Segment {
   SpuriousInformation spurious;
   unsigned flags = 0;  ///< WindowFlag bits of the window in which this segment was the newest.
 
-  double Duration_s() const { return 1e-9 * static_cast<double>(cloud.end_ns - cloud.begin_ns); }
+  double Duration_s() const { return cloud.Duration_s(); }
 };
 
 /// The sliding window: K segments and their K+1 control poses, and what is left of those before.

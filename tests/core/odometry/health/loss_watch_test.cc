@@ -112,5 +112,28 @@ TEST(LossWatch, AWindowIsRestlessWhileStepsAreLarge) {
   EXPECT_FALSE(window.has_converged);
 }
 
+/// What the points of a long segment saw on the way lies on no straight motion: its steps stay
+/// larger, and mean less. Those of a motion-corrected scan saw it at once.
+TEST(LossWatch, LongSegmentsSettleWithLargerSteps) {
+  const auto is_restless = [](double segment_s, float alpha) {
+    SegmentCloud cloud;
+    cloud.end_ns = static_cast<std::int64_t>(1e9 * segment_s);
+    cloud.map_points = {{Eigen::Vector3f::Zero(), alpha}};
+    WindowStatistics window;
+    window.restless = RestlessStep(cloud);
+    SolveSummary solve;
+    solve.iterations = 1;
+    for (int round = 0; round < 6; ++round) {
+      solve.step = {0.02, 0.004};
+      window.Add(solve, SolverOptions());
+    }
+    return window.IsRestless();
+  };
+  EXPECT_TRUE(is_restless(0.01, 0.5F));
+  EXPECT_TRUE(is_restless(0.03, 0.5F));
+  EXPECT_FALSE(is_restless(0.1, 0.5F));
+  EXPECT_TRUE(is_restless(0.1, 1.0F));
+}
+
 }  // namespace
 }  // namespace trajlo
