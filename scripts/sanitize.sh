@@ -63,7 +63,7 @@ build_targets() {
 
 run_slice() {
   build_targets --target fuzz_odometry fuzz_segmenter
-  ctest --test-dir "$build" --parallel "$jobs" --timeout 900 --output-on-failure \
+  ctest --test-dir "$build" --parallel "$jobs" --timeout 3600 --output-on-failure \
     --no-tests=error -R '^fuzz\.(odometry|segmenter)$'
 }
 
