@@ -124,7 +124,7 @@ class Replay {
 
 double VoxelOf(const ConvertRequest& request, const RunResult& result) {
   if (request.exports.voxel_m > 0.0) return request.exports.voxel_m;
-  return result.config.odometry.map.finest.MinPointSpacing_m();
+  return result.config.odometry.map.finest.min_point_spacing_m;
 }
 
 ExitCode WritePoseFile(const ConvertRequest& request, const RunResult& result) {

@@ -40,6 +40,10 @@ void CheckConfig(const RunConfig& config) {
   RequireLess({"segmenter.interval_s", segmenter.interval_s},
               {"expert.segmenter.max_gap_s", segmenter.max_gap_s},
               "otherwise the time between two segments would count as a pause");
+  RequireLess(
+      {"expert.map.min_point_spacing_m", map.min_point_spacing_m},
+      {"map.voxel_size_m", map.voxel_size_m},
+      "otherwise a voxel holds one point, and no plane is found; 0.4 of the voxel is a good value");
   RequireLess({"map.voxel_size_m", map.voxel_size_m}, {"map.radius_m", map.radius_m},
               "otherwise the map holds nothing");
 }

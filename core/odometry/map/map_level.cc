@@ -6,7 +6,7 @@ MapLevel::MapLevel(const MapOptions& options, const PlaneFitOptions& plane)
     : plane_(plane),
       cell_size_(0.5 * options.voxel_size_m),
       inverse_cell_size_(1.0 / cell_size_),
-      points_(options.voxel_size_m, options.MinPointSpacing_m(), options.radius_m,
+      points_(options.voxel_size_m, options.min_point_spacing_m, options.radius_m,
               PlaneFitOptions::kMinNeighbors) {
   if (options.kind == MapKind::kKdTree) tree_.emplace();
   if (options.shared_planes) cells_.emplace();

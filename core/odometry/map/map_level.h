@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -22,9 +21,6 @@ struct MapOptions {
   double radius_m = 100.0;
   bool shared_planes = true;
 
-  /// As it is used: a voxel needs several points.
-  double MinPointSpacing_m() const { return std::min(min_point_spacing_m, 0.4 * voxel_size_m); }
-
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "kind", kind,
@@ -33,9 +29,8 @@ struct MapOptions {
     d(OptionFor::kUsers, "voxel_size_m", voxel_size_m, Range<double>{1e-2, 20.0},
       "Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).");
     d(OptionFor::kExperts, "min_point_spacing_m", min_point_spacing_m, Range<double>{0.0, 10.0},
-      "A point nearer than this to another of its voxel is not added, or than 0.4 of the voxel's "
-      "edge if that is less: otherwise a sensor at rest fills the voxels with copies of the same "
-      "rings.");
+      "A point nearer than this to another of its voxel is not added: otherwise a sensor at "
+      "rest fills the voxels with copies of the same rings.");
     d(OptionFor::kUsers, "radius_m", radius_m, Range<double>{1.0, 1e4},
       "Voxels farther than this from the sensor are dropped.");
     d(OptionFor::kExperts, "shared_planes", shared_planes,

@@ -14,7 +14,7 @@
 namespace trajlo {
 namespace {
 
-/// Compilers round differently, and are up to 3 mm apart.
+/// Compilers round differently: their trajectories are up to 3.3 mm apart.
 constexpr double kSame_m = 0.005;
 constexpr double kSame_rad = 0.001;
 

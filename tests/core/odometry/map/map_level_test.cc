@@ -63,19 +63,6 @@ TEST_P(BothKinds, SharedPlanesAreThoseOfTheCellsCentres) {
   EXPECT_GT(found, 500);
 }
 
-/// Whatever spacing is asked for: a voxel with a single point makes no plane.
-TEST(MapLevel, ASmallVoxelHoldsSeveralPoints) {
-  MapOptions options = Options(MapKind::kVoxelHash, true);
-  options.voxel_size_m = 0.1;
-  EXPECT_GT(options.min_point_spacing_m, options.voxel_size_m);
-  EXPECT_DOUBLE_EQ(options.MinPointSpacing_m(), 0.04);
-  MapLevel level(options, {});
-  std::vector<Eigen::Vector3d> accepted;
-  level.Insert(Floor(20000, 1.0, 0.002, 5), &accepted);
-  Eigen::Vector3d center;
-  EXPECT_TRUE(Ask(level, {0.05, 0.05, 0.0}, &center).exists());
-}
-
 INSTANTIATE_TEST_SUITE_P(Kinds, BothKinds,
                          ::testing::Values(MapKind::kVoxelHash, MapKind::kKdTree));
 
