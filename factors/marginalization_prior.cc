@@ -2,7 +2,6 @@
 #include "factors/marginalization_prior.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 
 #include "factors/square_root.h"
@@ -63,18 +62,6 @@ MarginalizationPrior MarginalizeSchur(const Eigen::MatrixXd& H, const Eigen::Vec
   const Eigen::VectorXd b_m = g.tail(rest) - gain * g.head<6>();
   const auto root = MakeSquareRoot<Eigen::Dynamic>(H_m, b_m);
   return {staying, root.S, root.s};
-}
-
-MarginalizationPrior MarginalizeQr(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
-                                   const std::vector<SE3>& staying) {
-  const Eigen::Index columns = jacobian.cols();
-  Eigen::MatrixXd stacked =
-      Eigen::MatrixXd::Zero(std::max(jacobian.rows(), columns + 1), columns + 1);
-  stacked.topLeftCorner(jacobian.rows(), columns) = jacobian;
-  stacked.topRightCorner(jacobian.rows(), 1) = residual;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
-  const Eigen::MatrixXd R = qr.matrixQR().triangularView<Eigen::Upper>();
-  return {staying, R.block(6, 6, columns - 6, columns - 6), R.block(6, columns, columns - 6, 1)};
 }
 
 MarginalizationPriorCost::MarginalizationPriorCost(const MarginalizationPrior* prior)

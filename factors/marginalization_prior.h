@@ -22,7 +22,8 @@ struct MarginalizationPrior {
   Eigen::MatrixXd sqrt_information;       ///< S, 6n x 6n.
   Eigen::VectorXd offset;                 ///< r0
   /// Off: the Jacobian is the derivative of the residual, S Jr⁻¹(d). On: it stays as it was where
-  /// the poses left (d = 0), which is S (Huang et al., first-estimate Jacobians, 2009).
+  /// the poses left (d = 0), which is S. That of the prior only: in Huang et al. (2009), all
+  /// factors on its poses keep theirs.
   bool first_estimate_jacobians = false;
 
   int poses() const { return static_cast<int>(linearization_points.size()); }
@@ -48,11 +49,6 @@ MarginalizationPrior MakeAnchor(const SE3& pose, double sigma_translation_m,
 /// section 3. Directions of the leaving pose without information are left out of H_ll⁺.
 MarginalizationPrior MarginalizeSchur(const Eigen::MatrixXd& H, const Eigen::VectorXd& g,
                                       const std::vector<SE3>& staying);
-
-/// The same by orthogonal elimination, without ever forming H: QR of the stacked [J_l J_s | r]; the
-/// rows below the leaving pose are the prior. `jacobian` has the columns of the leaving pose first.
-MarginalizationPrior MarginalizeQr(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
-                                   const std::vector<SE3>& staying);
 
 /// MarginalizationPrior as a Ceres block on its poses.
 class MarginalizationPriorCost final : public ceres::CostFunction {

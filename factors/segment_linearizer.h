@@ -27,6 +27,24 @@ struct RegistrationNormalEquations {
   double cost = 0.0;  ///< ½ sum rho(s_i), exact.
 };
 
+/// The registration of a segment, and where it was linearised.
+struct LinearizedRegistration {
+  SE3 T_world_begin, T_world_end;
+  RegistrationNormalEquations equations;
+
+  /// The registration xi = [T_begin ⊖ T_world_begin; T_end ⊖ T_world_end] away from there, to first
+  /// order and with the kernel's weights of there: g + H xi, cost + gᵀxi + ½ xiᵀH xi.
+  RegistrationNormalEquations At(const SE3& T_begin, const SE3& T_end) const {
+    Vector12d xi;
+    xi << Minus(T_begin, T_world_begin), Minus(T_end, T_world_end);
+    const Vector12d H_xi = equations.H * xi;
+    RegistrationNormalEquations shifted = equations;
+    shifted.g += H_xi;
+    shifted.cost += equations.g.dot(xi) + 0.5 * xi.dot(H_xi);
+    return shifted;
+  }
+};
+
 /// Evaluates PointToPlaneCost for all points of a segment in one pass.
 ///
 /// Instead of two 6x6 interpolation Jacobians a point, everything happens in the begin frame, where

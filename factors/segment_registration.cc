@@ -14,7 +14,7 @@ bool PreparedRegistrationCost::Evaluate(double const* const* parameters, double*
   Eigen::Map<Eigen::Matrix<double, 13, 1>> r(residuals);
   if (jacobians == nullptr) {
     r.setZero();
-    r[12] = std::sqrt(2.0 * equations_->cost);
+    r[12] = std::sqrt(std::max(0.0, 2.0 * equations_->cost));
     return std::isfinite(equations_->cost);
   }
   const SquareRoot<12> root = MakeSquareRoot<12>(equations_->H, equations_->g);
@@ -30,8 +30,8 @@ bool PreparedRegistrationCost::Evaluate(double const* const* parameters, double*
 bool SegmentRegistrationCost::Evaluate(double const* const* parameters, double* residuals,
                                        double** jacobians) const {
   const bool is_known = last_ &&
-                        std::equal(parameters[0], parameters[0] + 7, last_->T_begin.data()) &&
-                        std::equal(parameters[1], parameters[1] + 7, last_->T_end.data());
+                        std::equal(parameters[0], parameters[0] + 7, last_->T_world_begin.data()) &&
+                        std::equal(parameters[1], parameters[1] + 7, last_->T_world_end.data());
   if (!is_known) {
     const SE3 T_begin = SE3::FromData(parameters[0]);
     const SE3 T_end = SE3::FromData(parameters[1]);

@@ -52,11 +52,7 @@ class SegmentRegistrationCost final : public ceres::SizedCostFunction<13, 7, 7> 
   const std::vector<RegistrationPoint>* points_;
   RegistrationNoise noise_;
   /// The last answer and its poses; a block is evaluated by one thread at a time.
-  struct Evaluation {
-    SE3 T_begin, T_end;
-    RegistrationNormalEquations equations;
-  };
-  mutable std::optional<Evaluation> last_;
+  mutable std::optional<LinearizedRegistration> last_;
 };
 
 }  // namespace trajlo

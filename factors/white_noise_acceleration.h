@@ -16,6 +16,9 @@ namespace trajlo {
 /// rad²/s³ for rotation. tau / Δt is the mean velocity over a segment. The velocity is a Wiener
 /// process, and the means of one over two neighbouring intervals differ by a variance of
 /// q (Δt_1 + Δt_2) / 3: so the same q means the same motion whatever the intervals are.
+/// Neighbouring differences share a segment, and are correlated by a quarter where intervals are
+/// equal. A window takes them for independent: over many segments its velocity varies by 2/3 of
+/// what q says. Densities are learnt from single differences, of which q is true.
 ///
 /// All three poses are variables: the velocity before is as uncertain as the points left it. (The
 /// paper takes the estimated one for exact, see SmoothnessTerm; then a prior that is too stiff

@@ -43,16 +43,7 @@ inline Vector3d Log(const Quaterniond& q) {
   return scale * v;
 }
 
-/// Jl(theta) = I + c2 [theta]x + c3 [theta]x².
-inline Matrix3d LeftJacobian(const Vector3d& theta) {
-  const Stumpff s(theta.squaredNorm());
-  const Matrix3d hat = Hat(theta);
-  return Matrix3d::Identity() + s.c2 * hat + s.c3 * hat * hat;
-}
-
-/// Jr(theta) = Jl(-theta).
-inline Matrix3d RightJacobian(const Vector3d& theta) { return LeftJacobian(-theta); }
-
+/// The inverse of Jl(theta), with which Exp(theta + d) = Exp(Jl d) Exp(theta) to first order:
 /// Jl⁻¹(theta) = I - [theta]x/2 + (1 - c1/(2 c2)) / |theta|² [theta]x².
 inline Matrix3d LeftJacobianInverse(const Vector3d& theta) {
   const double angle_squared = theta.squaredNorm();
@@ -62,8 +53,5 @@ inline Matrix3d LeftJacobianInverse(const Vector3d& theta) {
   const Matrix3d hat = Hat(theta);
   return Matrix3d::Identity() - 0.5 * hat + b * hat * hat;
 }
-
-/// Jr⁻¹(theta) = Jl⁻¹(-theta).
-inline Matrix3d RightJacobianInverse(const Vector3d& theta) { return LeftJacobianInverse(-theta); }
 
 }  // namespace trajlo::so3

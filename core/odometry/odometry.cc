@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/odometry/health/belief.h"
+#include "core/odometry/segments/join_segments.h"
 #include "core/odometry/stopwatch.h"
 #include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
@@ -117,7 +118,7 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
 void Odometry::FindFirstVelocity(const SegmentCloud& cloud) {
   const SegmentCloud first = *std::exchange(first_scan_, std::nullopt);
   if (cloud.is_gap) return;
-  const SegmentCloud both = JoinScans(first, cloud);
+  const SegmentCloud both = JoinSegments({first, cloud});
   const double duration_s = both.Duration_s();
   window_.begin_velocity = MotionOfFirstInterval(both, options_.initialization, options_.map,
                                                  options_.registration, &threads_) /

@@ -13,6 +13,7 @@ namespace {
 /// How well a place is known that was found in the map.
 constexpr double kFoundSigma_m = 0.2;
 constexpr double kFoundSigma_rad = 0.05;
+
 }  // namespace
 
 /// Whether the newest points do not hold the window, and did not for so long that its prediction is
@@ -22,7 +23,8 @@ bool Odometry::IsBlind() const {
          support_.IsBlind(window_.EndNs(), motion_prior_.density());
 }
 
-/// The newest segment leaves the window as it came, and is looked for in the map.
+/// The newest segment leaves the window, and is looked for in the map. (Where points were moved by
+/// the prediction as they came, see Deskewing, they stay so.)
 void Odometry::TakeBackAndSearch(const std::vector<SE3>& predicted) {
   SegmentCloud cloud = std::move(window_.segments.back().cloud);
   Revert(predicted, &window_);
@@ -54,7 +56,7 @@ void Odometry::BeginSearch() {
 void Odometry::Search(bool is_last) {
   const ReturnSweep sweep = search_->Look(map_, &threads_);
   const LastSeen& last = search_->last();
-  const double unseen_s = 1e-9 * static_cast<double>(sweep.cloud.begin_ns - last.t_ns);
+  const double unseen_s = Seconds(sweep.cloud.begin_ns - last.t_ns);
   if (sweep.T_world_begin && IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s)) {
     Resume(sweep);
   } else if (!support_.was_supported()) {
@@ -84,8 +86,8 @@ void Odometry::Resume(const ReturnSweep& sweep) {
     window_.begin_velocity = sweep.tau / sweep.cloud.Duration_s();
   } else {
     const LastSeen& last = search_->last();
-    window_.begin_velocity = 1e9 / static_cast<double>(sweep.cloud.begin_ns - last.t_ns) *
-                             Minus(T_world_begin, last.T_world_body);
+    window_.begin_velocity =
+        Minus(T_world_begin, last.T_world_body) / Seconds(sweep.cloud.begin_ns - last.t_ns);
     EnterMap(sweep.cloud, T_world_begin, T_world_begin, &threads_, &map_);
     segments.clear();
   }

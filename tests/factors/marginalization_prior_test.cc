@@ -81,6 +81,17 @@ TEST(MarginalizationPrior, FirstEstimateJacobianIsTheOneAtTheLinearizationPoint)
   EXPECT_EQ(prior.Residual(poses), residual);
 }
 
+/// The prior without ever forming H: QR of the stacked [J_l J_s | r], of which the rows below the
+/// leaving pose remain (Demmel et al., Square Root Marginalization, 2021).
+MarginalizationPrior MarginalizeQr(const Eigen::MatrixXd& J, const Eigen::VectorXd& r,
+                                   const std::vector<SE3>& staying) {
+  Eigen::MatrixXd stacked(J.rows(), J.cols() + 1);
+  stacked << J, r;
+  const Eigen::MatrixXd R = stacked.householderQr().matrixQR().triangularView<Eigen::Upper>();
+  const Eigen::Index rest = J.cols() - 6;
+  return {staying, R.block(6, 6, rest, rest), R.block(6, J.cols(), rest, 1)};
+}
+
 TEST(MarginalizationPrior, SchurAndQrAgree) {
   Random random(4);
   for (int draw = 0; draw < 50; ++draw) {

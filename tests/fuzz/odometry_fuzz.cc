@@ -25,7 +25,7 @@ OdometryOptions RandomOptions(fuzz::ByteSource* bytes) {
   options.map.finest.kind = bytes->OneOf({MapKind::kVoxelHash, MapKind::kKdTree});
   options.map.finest.shared_planes = !bytes->Bool();
   options.map.levels = bytes->OneOf({4, 1});
-  options.marginalization.use_qr = bytes->Bool();
+  options.marginalization.first_estimate_jacobians = bytes->Bool();
   options.marginalization.enabled = !bytes->Bool();
   options.motion_prior.kind =
       bytes->OneOf({MotionPriorKind::kWhiteNoiseAcceleration, MotionPriorKind::kPseudoVelocity});

@@ -69,15 +69,12 @@ TEST(SO3, LogIsTheSameForBothQuaternionsOfARotation) {
   EXPECT_NEAR(so3::Log(Eigen::Quaterniond(0, 1, 0, 0)).norm(), M_PI, 1e-15);
 }
 
-TEST(SO3, JacobiansMeetTheirSeriesAndTheirInverses) {
+TEST(SO3, TheInverseJacobianIsTheInverseOfTheSeries) {
   Random random(2);
   for (double angle : DelicateAngles()) {
     const Eigen::Vector3d theta = angle * random.Direction();
-    EXPECT_TRUE(
-        so3::LeftJacobian(theta).isApprox(JacobianSeries<Eigen::Matrix3d>(so3::Hat(theta)), 1e-14));
-    EXPECT_TRUE(so3::RightJacobian(theta).isApprox(so3::LeftJacobian(theta).transpose(), 1e-14));
-    EXPECT_TRUE((so3::LeftJacobianInverse(theta) * so3::LeftJacobian(theta)).isIdentity(1e-13));
-    EXPECT_TRUE((so3::RightJacobianInverse(theta) * so3::RightJacobian(theta)).isIdentity(1e-13));
+    const auto jacobian = JacobianSeries<Eigen::Matrix3d>(so3::Hat(theta));
+    EXPECT_TRUE((so3::LeftJacobianInverse(theta) * jacobian).isIdentity(1e-13));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "core/odometry/health/agreement.h"
 #include "core/odometry/health/condition.h"
 #include "core/odometry/health/support.h"
+#include "core/odometry/window/step_size.h"
 
 namespace trajlo {
 namespace {
@@ -26,9 +27,9 @@ bool IsBelievable(const WindowStatistics& statistics, const Window& window) {
 }
 
 bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s) {
-  const SE3 between = T_world_begin.Inverse() * T_world_end;
-  return between.t.norm() <= kMaxSpeed_m_s * duration_s &&
-         so3::Log(between.q).norm() <= kMaxTurnRate_rad_s * duration_s;
+  const StepSize step = MeasureStep(T_world_begin, T_world_end);
+  return step.translation_m <= kMaxSpeed_m_s * duration_s &&
+         step.rotation_rad <= kMaxTurnRate_rad_s * duration_s;
 }
 
 void Revert(const std::vector<SE3>& poses, Window* window) {

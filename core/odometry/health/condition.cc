@@ -36,7 +36,8 @@ struct RigidInformation {
   }
 };
 
-/// 1 + 3 sqrt(2 / N_F): the sum of N_F squares of Gaussian noise, in units of its mean.
+/// 1 + 3 sqrt(2 / N_F): the sum of N_F squares of Gaussian noise, in units of its mean. N_F is the
+/// number of normals that are independent.
 double LargestSpurious(const SpuriousInformation& spurious, double points_per_error) {
   if (!(spurious.sum > 0.0)) return 1.0;
   const double count = spurious.sum * spurious.sum / (points_per_error * spurious.sum_of_squares);
@@ -52,7 +53,7 @@ double SpreadOverPlaces(const Window& window, const Vector6d& u) {
   for (const Segment& segment : window.segments) {
     const Vector6d u_end = se3::Adjoint(segment.T_world_end.Inverse() * newest) * u;
     for (int i = 0; i < kGroups; ++i) {
-      sums[i] += segment.spurious.by_place[static_cast<std::size_t>(i)].Along(u_end);
+      sums[i] += u_end.dot(segment.spurious.by_place[static_cast<std::size_t>(i)] * u_end);
     }
   }
   return std::sqrt((sums - sums.mean()).square().sum() * kGroups / (kGroups - 1.0));

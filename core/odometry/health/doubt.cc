@@ -58,9 +58,7 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
 
 bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const {
   if (!held_until_ns_) return true;  // Nobody knows how fast.
-  const double unheld_s = 1e-9 * static_cast<double>(t_ns - *held_until_ns_);
-  return 3.0 * UnseenSigma(density[0], unheld_s) > kMoved_m ||
-         3.0 * UnseenSigma(density[3], unheld_s) > kMoved_rad;
+  return trajlo::MayHaveMoved(density, Seconds(t_ns - *held_until_ns_), kMoved_m, kMoved_rad);
 }
 
 bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {

@@ -21,7 +21,7 @@ struct LostOptions {
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "min_inlier_share", min_inlier_share, Range<double>{0.0, 1.0},
-      "The estimator is lost when fewer than this share of the points lie on planes for longer "
+      "The estimator is lost when fewer than this share of the points have a plane for longer "
       "than max_duration_s: the map grew with what was seen, and still does not explain it.");
     d(OptionFor::kExperts, "max_duration_s", max_duration_s, Range<double>{0.0, 1e6},
       "See min_inlier_share.");

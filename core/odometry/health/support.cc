@@ -32,13 +32,16 @@ bool IsUnsupported(const Window& window, const Segment& segment) {
 
 bool SupportWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {
   if (!was_supported_) return false;
-  const double unseen_s = 1e-9 * static_cast<double>(t_ns - supported_until_ns_);
-  return 3.0 * UnseenSigma(density[0], unseen_s) > kBridged_m ||
-         3.0 * UnseenSigma(density[3], unseen_s) > kBridged_rad;
+  return MayHaveMoved(density, Seconds(t_ns - supported_until_ns_), kBridged_m, kBridged_rad);
 }
 
 double UnseenSigma(double density, double duration_s) {
   return std::sqrt(density * duration_s * duration_s * duration_s / 3.0);
+}
+
+bool MayHaveMoved(const Vector6d& density, double duration_s, double distance_m, double angle_rad) {
+  return 3.0 * UnseenSigma(density[0], duration_s) > distance_m ||
+         3.0 * UnseenSigma(density[3], duration_s) > angle_rad;
 }
 
 }  // namespace trajlo

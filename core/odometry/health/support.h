@@ -59,4 +59,8 @@ class SupportWatch {
 /// by white noise on acceleration of spectral density `density` (m²/s³ or rad²/s³).
 double UnseenSigma(double density, double duration_s);
 
+/// Whether three of them are more than `distance_m` or `angle_rad`; `density` is that of the
+/// acceleration, see MotionPrior.
+bool MayHaveMoved(const Vector6d& density, double duration_s, double distance_m, double angle_rad);
+
 }  // namespace trajlo

@@ -41,9 +41,9 @@ void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& optio
 }
 
 void WindowStatistics::SetCorrection(const SE3& T_world_predicted, const SE3& T_world_estimated) {
-  const SE3 correction = T_world_predicted.Inverse() * T_world_estimated;
-  correction_m = correction.t.norm();
-  correction_rad = so3::Log(correction.q).norm();
+  const StepSize correction = MeasureStep(T_world_predicted, T_world_estimated);
+  correction_m = correction.translation_m;
+  correction_rad = correction.rotation_rad;
 }
 
 void Describe(const Window& window, WindowStatistics* statistics) {

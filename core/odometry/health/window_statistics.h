@@ -16,7 +16,7 @@ enum WindowFlag : unsigned {
   kFlagGap = 1u << 1,       ///< Before this pose is a stretch of which nothing was measured.
   kFlagReverted = 1u << 2,  ///< A solve was not finite or jumped: the prediction stands.
   kFlagNotConverged = 1u << 3,  ///< The rounds ran out before the steps became small.
-  kFlagDegenerate = 1u << 4,    ///< A direction is held by smoothness and prior alone.
+  kFlagDegenerate = 1u << 4,    ///< A direction is held by the motion prior alone.
   kFlagLost = 1u << 5,          ///< The scene is no longer followed: see LossWatch.
   kFlagFewInliers = 1u << 6,    ///< Too few points agree with the map: InlierWatch.
 };

@@ -66,7 +66,7 @@ MapPyramid::MapPyramid(const MapPyramidOptions& options) : plane_(options.plane)
 
 void MapPyramid::Insert(const std::vector<Eigen::Vector3d>& points_world) {
   ++version_;
-  // What a level has no use for, because it has points there, is none for the coarser ones either.
+  // What a level has no use for, because it has points there, is hardly of use for coarser ones.
   std::vector<Eigen::Vector3d> offered = points_world;
   std::vector<Eigen::Vector3d> accepted;
   for (MapLevel& level : levels_) {

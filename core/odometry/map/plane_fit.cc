@@ -42,7 +42,8 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   const int n = neighbors.count;
   if (n < PlaneFitOptions::kMinNeighbors) return {};
   const Moments moments(neighbors);
-  // In floats, which suffice: half a micrometre of thickness where a plane is a metre wide.
+  // In floats, which suffice: a plane that is a metre wide gets up to half a millimetre of
+  // thickness by rounding.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen;
   eigen.computeDirect(moments.covariance.cast<float>());
   const double thickness_m = std::sqrt(std::max(0.0F, eigen.eigenvalues()[0]));

@@ -57,8 +57,8 @@ struct FittedPlane {
 };
 
 /// The plane through the neighbours of `center_world` by principal component analysis; one that
-/// does not exist where they make none. `spacing_m` is the least distance between points of the
-/// map.
+/// does not exist where they make none. `spacing_m` is the least distance between points of a
+/// voxel.
 FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_world,
                      const PlaneFitOptions& options, double spacing_m);
 

@@ -50,7 +50,6 @@ class VoxelHashMap {
   /// All numbers of sites are smaller.
   std::size_t site_capacity() const { return site_count_; }
 
-  double voxel_size_m() const { return voxel_size_; }
   double min_point_spacing_m() const { return spacing_; }
   /// Number of points.
   std::size_t size() const { return point_count_; }

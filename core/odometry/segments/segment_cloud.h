@@ -10,6 +10,8 @@
 
 namespace trajlo {
 
+inline double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+
 /// A point of a segment in the body frame at its own time; `alpha` is that time as a share of the
 /// segment: 0 at its begin, 1 at its end.
 struct SegmentPoint {
@@ -43,7 +45,7 @@ struct SegmentCloud {
   std::vector<SegmentPoint> map_points;           ///< Fine: what enters the map.
   std::vector<SegmentPoint> registration_points;  ///< Coarse subset: what is registered.
 
-  double Duration_s() const { return 1e-9 * static_cast<double>(end_ns - begin_ns); }
+  double Duration_s() const { return Seconds(end_ns - begin_ns); }
   /// A motion-corrected scan: every point belongs to the end.
   bool IsInstant() const {
     return !map_points.empty() &&

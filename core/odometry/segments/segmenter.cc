@@ -111,8 +111,12 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
   const std::int64_t first_open_ns = FirstOpen_ns();
   std::int64_t newest_ns = kUnseen;
   for (const LidarPoint& point : scan.points) {
-    if (point.t_ns < first_open_ns || point.t_ns > *end_ns_ + max_gap_ns_) {
+    if (point.t_ns < first_open_ns) {
       ++counts_.too_late;
+      continue;
+    }
+    if (point.t_ns > *end_ns_ + max_gap_ns_) {
+      ++counts_.wrong_time;
       continue;
     }
     newest_ns = std::max(newest_ns, point.t_ns);

@@ -21,10 +21,9 @@ ceres::CallbackReturnType StopAfterSteps::operator()(const ceres::IterationSumma
     return ceres::SOLVER_CONTINUE;
   }
   costs_.push_back(iteration.cost);
-  const std::vector<SE3> now = state_->Poses();
   const bool is_done = static_cast<int>(costs_.size()) > options_.iterations_per_round ||
-                       MeasureStep(before_, now).IsWithin(options_.step_tolerance);
-  before_ = now;
+                       MeasureStep(before_, state_).IsWithin(options_.step_tolerance);
+  before_ = state_;
   return is_done ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
 }
 
@@ -43,7 +42,16 @@ ceres::Solver::Options UndampedSolverOptions(int steps) {
   return options;
 }
 
-SolveSummary Summarize(const StopAfterSteps& stop, const ceres::Solver::Summary& ceres_summary) {
+SolveSummary SolveByCeres(const SolverOptions& options, ceres::Solver::Options ceres_options,
+                          std::vector<SE3>* poses, ceres::Problem* problem, Window* window) {
+  const std::vector<SE3> start = window->Poses();
+  // In place: the blocks must stay where they are.
+  std::copy(start.begin(), start.end(), poses->begin());
+  StopAfterSteps stop(options, poses);
+  ceres_options.callbacks = {&stop};
+  ceres::Solver::Summary ceres_summary;
+  ceres::Solve(ceres_options, problem, &ceres_summary);
+
   SolveSummary summary;
   summary.costs = stop.costs();
   summary.iterations = std::max(0, static_cast<int>(stop.costs().size()) - 1);
@@ -51,19 +59,14 @@ SolveSummary Summarize(const StopAfterSteps& stop, const ceres::Solver::Summary&
   summary.evaluate_s = ceres_summary.residual_evaluation_time_in_seconds +
                        ceres_summary.jacobian_evaluation_time_in_seconds;
   summary.linear_solve_s = ceres_summary.linear_solver_time_in_seconds;
+  summary.finite = ceres_summary.IsSolutionUsable();
+  for (const SE3& pose : *poses) summary.finite = summary.finite && pose.IsFinite();
+  if (!summary.finite) return summary;
+  summary.step = MeasureStep(start, *poses);
+  window->SetPoses(*poses);
+  summary.cost = CostWithoutRegistration(*window, *poses);
+  summary.cost.registration = ceres_summary.final_cost - summary.cost.Total();
   return summary;
-}
-
-void AcceptSolution(const std::vector<SE3>& start, const std::vector<SE3>& solution,
-                    const ceres::Solver::Summary& ceres_summary, Window* window,
-                    SolveSummary* summary) {
-  summary->finite = ceres_summary.IsSolutionUsable();
-  for (const SE3& pose : solution) summary->finite = summary->finite && pose.IsFinite();
-  if (!summary->finite) return;
-  summary->step = MeasureStep(start, solution);
-  window->SetPoses(solution);
-  summary->cost = CostWithoutRegistration(*window, solution);
-  summary->cost.registration = ceres_summary.final_cost - summary->cost.Total();
 }
 
 }  // namespace trajlo

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <ceres/iteration_callback.h>
+#include <ceres/problem.h>
 #include <ceres/solver.h>
 
 #include <vector>
 
-#include "core/odometry/solvers/pose_blocks.h"
 #include "core/odometry/solvers/window_solver.h"
 
 namespace trajlo {
@@ -16,8 +16,8 @@ namespace trajlo {
 class StopAfterSteps final : public ceres::IterationCallback {
  public:
   /// Both must outlive it.
-  StopAfterSteps(const SolverOptions& options, const PoseBlocks* state)
-      : options_(options), state_(state), before_(state->Poses()) {}
+  StopAfterSteps(const SolverOptions& options, const std::vector<SE3>* state)
+      : options_(options), state_(*state), before_(*state) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override;
 
@@ -27,7 +27,7 @@ class StopAfterSteps final : public ceres::IterationCallback {
 
  private:
   const SolverOptions& options_;
-  const PoseBlocks* state_;
+  const std::vector<SE3>& state_;
   std::vector<SE3> before_;
   std::vector<double> costs_;
   int rejected_ = 0;
@@ -37,12 +37,9 @@ class StopAfterSteps final : public ceres::IterationCallback {
 /// until one raises the cost.
 ceres::Solver::Options UndampedSolverOptions(int steps);
 
-/// Costs, steps and times of a solve.
-SolveSummary Summarize(const StopAfterSteps& stop, const ceres::Solver::Summary& ceres_summary);
-
-/// Puts the window to the solution if it is one; fills in the rest of the summary.
-void AcceptSolution(const std::vector<SE3>& start, const std::vector<SE3>& solution,
-                    const ceres::Solver::Summary& ceres_summary, Window* window,
-                    SolveSummary* summary);
+/// Solves `problem` with `poses`, its parameter blocks, from the poses of the window to which it
+/// belongs, and puts these to the solution if it is one.
+SolveSummary SolveByCeres(const SolverOptions& options, ceres::Solver::Options ceres_options,
+                          std::vector<SE3>* poses, ceres::Problem* problem, Window* window);
 
 }  // namespace trajlo

@@ -10,7 +10,6 @@ namespace trajlo {
 SolveSummary GaussNewtonSolver::Solve(Window* window) {
   const std::vector<SE3> start = window->Poses();
   std::vector<SE3> poses = start;
-  Eigen::VectorXd xi;
   SolveSummary summary;
   bool is_small = false;
   while (summary.iterations < options_.iterations_per_round && !is_small) {
@@ -19,7 +18,7 @@ SolveSummary GaussNewtonSolver::Solve(Window* window) {
     AssembleWindow(*window, poses, registration_, &equations_);
     summary.costs.push_back(equations_.cost.Total());
     summary.evaluate_s += watch.Seconds();
-    xi = -equations_.H.ldlt().solve(equations_.g);
+    const Eigen::VectorXd xi = -equations_.H.ldlt().solve(equations_.g);
     summary.linear_solve_s += watch.Seconds();
     if (!xi.allFinite()) {
       summary.finite = false;
@@ -34,11 +33,10 @@ SolveSummary GaussNewtonSolver::Solve(Window* window) {
   }
   summary.step = MeasureStep(start, poses);
   window->SetPoses(poses);
-  ShiftRegistration(xi, &registration_);
+  ShiftRegistration(window);
   summary.cost = CostWithoutRegistration(*window, poses);
-  for (std::size_t k = 0; k < registration_.size(); ++k) {
-    window->segments[k].registration = registration_[k];
-    summary.cost.registration += registration_[k].cost;
+  for (const Segment& segment : window->segments) {
+    summary.cost.registration += segment.registration.cost;
   }
   return summary;
 }

@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "core/odometry/solvers/pose_blocks.h"
 #include "core/odometry/window/registration_evaluator.h"
 
 namespace trajlo {
@@ -18,34 +17,30 @@ namespace trajlo {
 /// step nobody needs Jacobians to more than first order: the registration is shifted by the step.
 class PrepareRegistration final : public ceres::EvaluationCallback {
  public:
-  PrepareRegistration(const PoseBlocks* blocks, RegistrationEvaluator* evaluator)
-      : blocks_(blocks), evaluator_(evaluator) {}
+  /// `poses` are Ceres's parameter blocks. Both must outlive it.
+  PrepareRegistration(const std::vector<SE3>* poses, RegistrationEvaluator* evaluator)
+      : poses_(*poses), evaluator_(evaluator), equations_(poses->size() - 1) {}
 
-  /// A new solve begins; `window` must outlive it.
+  /// A new solve of at most `steps` begins; `window` must outlive it.
   void Begin(Window* window, int steps);
 
   void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override;
 
-  /// Written anew at each evaluation; the address stays while the number of segments does.
+  /// Written anew at each evaluation; the address stays.
   const RegistrationNormalEquations* equations(int k) const {
     return &equations_[static_cast<std::size_t>(k)];
   }
-  void Resize(std::size_t segments) { equations_.resize(segments); }
 
-  /// The registration at `poses`, where Ceres ended.
-  const std::vector<RegistrationNormalEquations>& At(const std::vector<SE3>& poses);
+  /// Leaves the registration around the window's poses, where Ceres ended, in its segments.
+  void Finish();
 
  private:
-  void ShiftTo(const std::vector<SE3>& poses);
-
-  const PoseBlocks* blocks_;
+  const std::vector<SE3>& poses_;
   RegistrationEvaluator* evaluator_;
-  Window* window_ = nullptr;
-  bool linearize_steps_ = false;
   std::vector<RegistrationNormalEquations> equations_;
-  /// The newest linearisation, and where.
-  std::vector<RegistrationNormalEquations> linearized_;
-  std::vector<SE3> linearized_at_;
+  Window* window_ = nullptr;
+  bool has_many_steps_ = false;
+  bool is_at_start_ = true;
 };
 
 }  // namespace trajlo

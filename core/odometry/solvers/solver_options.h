@@ -26,8 +26,9 @@ struct SolverOptions {
       "At most this many solver iterations in each round.");
     d(OptionFor::kExperts, "step_tolerance_m", step_tolerance.translation_m,
       Range<double>{0.0, 1.0},
-      "The rounds end when no control pose moves by more than this, nor turns by more than "
-      "step_tolerance_rad.");
+      "The rounds end when no control pose would move by more than this in the next one, nor turn "
+      "by more than step_tolerance_rad. Planes and linearisations are kept where poses moved "
+      "less.");
     d(OptionFor::kExperts, "step_tolerance_rad", step_tolerance.rotation_rad,
       Range<double>{0.0, 1.0}, "See step_tolerance_m.");
   }

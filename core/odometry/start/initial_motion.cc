@@ -207,23 +207,6 @@ Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& inte
 
 }  // namespace
 
-SegmentCloud JoinScans(const SegmentCloud& first, const SegmentCloud& second) {
-  SegmentCloud joined;
-  joined.begin_ns = first.end_ns;
-  joined.end_ns = second.end_ns;
-  joined.lidar_origins_body_m = second.lidar_origins_body_m;
-  const auto append = [](std::vector<SegmentPoint> points, float alpha,
-                         std::vector<SegmentPoint>* to) {
-    for (SegmentPoint& point : points) point.alpha = alpha;
-    to->insert(to->end(), points.begin(), points.end());
-  };
-  append(first.map_points, 0.0F, &joined.map_points);
-  append(first.registration_points, 0.0F, &joined.registration_points);
-  append(second.map_points, 1.0F, &joined.map_points);
-  append(second.registration_points, 1.0F, &joined.registration_points);
-  return joined;
-}
-
 InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
                                     const RegistrationOptions& registration, ThreadPool* threads) {
   InitialMotion motion;

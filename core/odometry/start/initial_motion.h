@@ -32,9 +32,6 @@ struct InitialMotion {
 InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
                                     const RegistrationOptions& registration, ThreadPool* threads);
 
-/// Two motion-corrected scans, each of one time, as the first and the second half of an interval.
-SegmentCloud JoinScans(const SegmentCloud& first, const SegmentCloud& second);
-
 struct InitializationOptions {
   bool estimate_motion = true;
 

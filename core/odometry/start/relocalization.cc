@@ -7,6 +7,7 @@
 
 #include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/window/association.h"
+#include "core/odometry/window/step_size.h"
 #include "factors/segment_linearizer.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -96,8 +97,7 @@ class Hypothesis {
   int with_plane() const { return static_cast<int>(points_.size()); }
 
   bool IsAt(const Hypothesis& other) const {
-    const SE3 between = T_begin_.Inverse() * other.T_begin_;
-    return between.t.norm() < kSame_m && so3::Log(between.q).norm() < kSame_rad;
+    return MeasureStep(T_begin_, other.T_begin_).IsWithin({kSame_m, kSame_rad});
   }
 
   bool HoldsAllDirections() const {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/odometry/health/support.h"
+#include "core/odometry/segments/join_segments.h"
 
 namespace trajlo {
 namespace {
@@ -13,19 +14,18 @@ namespace {
 constexpr double kPatience = 0.25;
 /// The region holds rest and 1.5 times the way of the last velocity: a middle and a half of 0.75.
 constexpr double kMiddle = 0.75;
-/// The scene's uncertainty at three standard deviations, and what a look may cost.
+/// The scene's uncertainty at three standard deviations.
 constexpr double kMinRadius_m = 0.5;
 /// Nor is the body taken to accelerate less than this, however quiet it was before.
 constexpr double kAcceleration_m_s2 = 2.0;
 constexpr double kTurnAcceleration_rad_s2 = 2.0;
+/// What a look may cost.
 constexpr double kMaxRadius_m = 40.0;
 constexpr double kMinTurn_rad = 0.1;
 /// A velocity says nothing after so long.
 constexpr double kLongestPrediction_s = 5.0;
 /// Attitudes nearer than this are one.
 constexpr double kSameTilt_rad = 0.05;
-
-double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 /// How far a body gets off its course: three standard deviations of white noise on acceleration, or
 /// a steady acceleration.
@@ -56,28 +56,6 @@ bool ReturnSearch::IsDue() const {
   const double sweep_s = Seconds(segments_.back().end_ns - segments_.front().begin_ns);
   const double enough_s = options_.segmenter.first_interval_s - options_.segmenter.interval_s;
   return sweep_s >= enough_s && since_look_s_ >= std::max(enough_s, kPatience * searched_s_);
-}
-
-ReturnSweep ReturnSearch::Merge() const {
-  ReturnSweep sweep;
-  SegmentCloud& cloud = sweep.cloud;
-  cloud.begin_ns = segments_.front().begin_ns;
-  cloud.end_ns = segments_.back().end_ns;
-  cloud.lidar_origins_body_m = segments_.back().lidar_origins_body_m;
-  const double inverse = 1.0 / static_cast<double>(cloud.end_ns - cloud.begin_ns);
-  for (const SegmentCloud& segment : segments_) {
-    const double first = static_cast<double>(segment.begin_ns - cloud.begin_ns) * inverse;
-    const double share = static_cast<double>(segment.end_ns - segment.begin_ns) * inverse;
-    const auto append = [&](const std::vector<SegmentPoint>& from, std::vector<SegmentPoint>* to) {
-      for (SegmentPoint point : from) {
-        point.alpha = static_cast<float>(first + share * static_cast<double>(point.alpha));
-        to->push_back(point);
-      }
-    };
-    append(segment.map_points, &cloud.map_points);
-    append(segment.registration_points, &cloud.registration_points);
-  }
-  return sweep;
 }
 
 SE3 ReturnSearch::Predict(std::int64_t t_ns) const {
@@ -112,7 +90,8 @@ SearchRegion ReturnSearch::Region(std::int64_t t_ns) const {
 
 ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
   since_look_s_ = 0.0;
-  ReturnSweep sweep = Merge();
+  ReturnSweep sweep;
+  sweep.cloud = JoinSegments(segments_);
   if (sweep.cloud.IsInstant()) {
     sweep.cloud.begin_ns = sweep.cloud.end_ns;
   } else {

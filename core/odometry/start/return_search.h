@@ -52,7 +52,6 @@ class ReturnSearch {
   SE3 Predict(std::int64_t t_ns) const;
 
  private:
-  ReturnSweep Merge() const;
   SearchRegion Region(std::int64_t t_ns) const;
 
   LastSeen last_;

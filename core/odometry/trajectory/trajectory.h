@@ -13,7 +13,8 @@ namespace trajlo {
 struct ControlPose {
   std::int64_t t_ns = 0;
   SE3 T_world_body;
-  /// WindowFlag bits of the window in which it was the newest pose; 0 is good.
+  /// WindowFlag bits of the window in which it was the newest pose, and of what showed later; 0 is
+  /// good.
   unsigned flags = 0;
 };
 

@@ -16,7 +16,8 @@
 namespace trajlo {
 
 /// The planes of one segment's points. A point keeps its plane until it leaves its cell of the map;
-/// a point without one asks again when the map has grown.
+/// a point without one asks again when the map has grown. Neither is asked while the segment moves
+/// less than a tolerance.
 class SegmentAssociation {
  public:
   /// Takes every point to the world at its own time on T_begin..T_end, where Look() will look up

@@ -38,7 +38,8 @@ std::vector<double> SampleDistances(const Window& window) {
 }  // namespace
 
 void FitKernel(const RegistrationOptions& options, Window* window) {
-  if (options.kernel_in_spreads == 0.0) return;
+  const bool has_kernel = window->noise.kernel.kind != KernelKind::kNone;
+  if (!has_kernel || options.kernel_in_spreads == 0.0) return;
   std::vector<double> sampled_m = SampleDistances(*window);
   if (sampled_m.size() < kFewest) return;
   const auto median = sampled_m.begin() + static_cast<std::ptrdiff_t>(sampled_m.size() / 2);

@@ -5,27 +5,9 @@
 #include <utility>
 
 #include "core/odometry/window/window_equations.h"
-#include "factors/square_root.h"
 
 namespace trajlo {
 namespace {
-
-/// The terms that touch the first pose, as stacked rows over [leaving; staying].
-struct Rows {
-  Eigen::MatrixXd J;
-  Eigen::VectorXd r;
-  Eigen::Index filled = 0;
-
-  Rows(Eigen::Index most, Eigen::Index columns)
-      : J(Eigen::MatrixXd::Zero(most, columns)), r(Eigen::VectorXd::Zero(most)) {}
-
-  template <typename Jacobian, typename Residual>
-  void Add(Eigen::Index first_column, const Jacobian& jacobian, const Residual& residual) {
-    J.block(filled, first_column, jacobian.rows(), jacobian.cols()) = jacobian;
-    r.segment(filled, residual.size()) = residual;
-    filled += residual.size();
-  }
-};
 
 /// How many poses, counted from the first, share a term with it.
 int TouchedPoses(const Window& window) {
@@ -58,22 +40,20 @@ MarginalizationPrior PriorWithoutFirstPose(const Window& window,
     return AnchorOf(poses[1]);
   }
   const int touched = TouchedPoses(window);
-  Rows rows(12 + 2 * 6 + 6 * window.prior.poses(), 6 * touched);
+  WindowNormalEquations terms;
+  terms.SetZero(touched);
   const RegistrationNormalEquations& registration = window.segments.front().registration;
-  const SquareRoot<12> root = MakeSquareRoot<12>(registration.H, registration.g);
-  rows.Add(0, root.S, root.s);
+  terms.H.topLeftCorner<12, 12>() = registration.H;
+  terms.g.head<12>() = registration.g;
   for (int k = 0; k < std::min(2, window.size()); ++k) {
     const LinearizedMotion motion = LinearizeMotion(window, poses, k);
     if (motion.count == 0 || motion.first > 0) continue;
-    rows.Add(0, motion.jacobian.leftCols(6 * motion.count), motion.residual);
+    terms.Add(0, motion.jacobian.leftCols(6 * motion.count), motion.residual);
   }
-  rows.Add(0, window.prior.Jacobian(poses), window.prior.Residual(poses));
+  terms.Add(0, window.prior.Jacobian(poses), window.prior.Residual(poses));
 
-  const std::vector<SE3> staying(poses.begin() + 1, poses.begin() + touched);
   MarginalizationPrior prior =
-      options.use_qr
-          ? MarginalizeQr(rows.J, rows.r, staying)
-          : MarginalizeSchur(rows.J.transpose() * rows.J, rows.J.transpose() * rows.r, staying);
+      MarginalizeSchur(terms.H, terms.g, {poses.begin() + 1, poses.begin() + touched});
   prior.first_estimate_jacobians = options.first_estimate_jacobians;
   return prior;
 }

@@ -9,7 +9,6 @@ namespace trajlo {
 struct MarginalizationOptions {
   bool enabled = true;
   bool first_estimate_jacobians = false;
-  bool use_qr = false;
 
   template <typename Describer>
   void Describe(Describer& d) {
@@ -18,8 +17,6 @@ struct MarginalizationOptions {
       "of a recording is.");
     d(OptionFor::kExperts, "first_estimate_jacobians", first_estimate_jacobians,
       "Keeps the Jacobian of the prior as it was when the poses left.");
-    d(OptionFor::kExperts, "use_qr", use_qr,
-      "Orthogonal elimination in place of the Schur complement.");
   }
 };
 

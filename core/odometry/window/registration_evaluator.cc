@@ -4,18 +4,6 @@
 #include <algorithm>
 
 namespace trajlo {
-namespace {
-
-RegistrationNormalEquations ShiftTo(const SE3& T_begin, const SE3& T_end,
-                                    const LinearizedRegistration& known) {
-  RegistrationNormalEquations shifted = known.equations;
-  Vector12d xi;
-  xi << Minus(T_begin, known.T_world_begin), Minus(T_end, known.T_world_end);
-  ShiftRegistration(xi, &shifted);
-  return shifted;
-}
-
-}  // namespace
 
 bool RegistrationEvaluator::IsKnown(const Window& window, const std::vector<SE3>& poses,
                                     std::size_t k) const {
@@ -55,7 +43,7 @@ void RegistrationEvaluator::Evaluate(Window* window, const std::vector<SE3>& pos
     RegistrationNormalEquations& result = (*equations)[k];
     std::optional<LinearizedRegistration>& known = window->segments[k].linearization;
     if (IsKnown(*window, poses, k)) {
-      result = ShiftTo(poses[k], poses[k + 1], *known);
+      result = known->At(poses[k], poses[k + 1]);
     } else if (jacobians) {
       result = linearizers[k].Finish(sums[k]);
       known = {poses[k], poses[k + 1], result};
@@ -65,17 +53,10 @@ void RegistrationEvaluator::Evaluate(Window* window, const std::vector<SE3>& pos
   }
 }
 
-void ShiftRegistration(const Vector12d& xi, RegistrationNormalEquations* equations) {
-  const Vector12d H_xi = equations->H * xi;
-  equations->cost += equations->g.dot(xi) + 0.5 * xi.dot(H_xi);
-  equations->g += H_xi;
-}
-
-void ShiftRegistration(const Eigen::VectorXd& xi,
-                       std::vector<RegistrationNormalEquations>* equations) {
-  for (std::size_t k = 0; k < equations->size(); ++k) {
-    const Vector12d step = xi.segment<12>(6 * static_cast<Eigen::Index>(k));
-    ShiftRegistration(step, &(*equations)[k]);
+void ShiftRegistration(Window* window) {
+  for (int k = 0; k < window->size(); ++k) {
+    Segment& segment = window->segments[static_cast<std::size_t>(k)];
+    segment.registration = segment.linearization->At(window->Pose(k), window->Pose(k + 1));
   }
 }
 

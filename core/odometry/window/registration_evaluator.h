@@ -36,13 +36,7 @@ class RegistrationEvaluator {
   std::vector<Chunk> chunks_;
 };
 
-/// The registration at `xi = [xi_begin; xi_end]` away from where it was linearised: see below.
-void ShiftRegistration(const Vector12d& xi, RegistrationNormalEquations* equations);
-
-/// The registration at `xi` away from where it was linearised, to first order and with the kernel's
-/// weights of there: g + H xi, cost + gᵀxi + ½ xiᵀH xi. `xi` stacks the right perturbations of all
-/// poses.
-void ShiftRegistration(const Eigen::VectorXd& xi,
-                       std::vector<RegistrationNormalEquations>* equations);
+/// Puts the registration of all segments, which were linearised near by, around the window's poses.
+void ShiftRegistration(Window* window);
 
 }  // namespace trajlo

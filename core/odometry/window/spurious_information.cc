@@ -36,38 +36,6 @@ Matrix6d IsotropicSum(double sum, const Eigen::Vector3d& first, const Eigen::Mat
 
 }  // namespace
 
-OuterSum::Product OuterSum::ProductOf(const Vector6d& j) {
-  Product product;
-  std::size_t i = 0;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column) product[i++] = j[row] * j[column];
-  }
-  return product;
-}
-
-double OuterSum::Along(const Vector6d& u) const {
-  const Product product = ProductOf(u);
-  double sum = 0.0;
-  std::size_t i = 0;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column, ++i) {
-      sum += (column == row ? 1.0 : 2.0) * upper_[i] * product[i];
-    }
-  }
-  return sum;
-}
-
-Matrix6d OuterSum::Matrix() const {
-  Matrix6d matrix;
-  std::size_t i = 0;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column) {
-      matrix(row, column) = matrix(column, row) = upper_[i++];
-    }
-  }
-  return matrix;
-}
-
 SpuriousInformation SpuriousInformationOf(const std::vector<RegistrationPoint>& points,
                                           const SE3& T_begin, const SE3& T_end,
                                           const RegistrationNoise& noise) {
@@ -78,7 +46,7 @@ SpuriousInformation SpuriousInformationOf(const std::vector<RegistrationPoint>& 
   SpuriousInformation spurious;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  OuterSum along_normals, no_surface;
+  Matrix6d along_normals = Matrix6d::Zero();
   for (const RegistrationPoint& point : points) {
     const Eigen::Vector3d x_world = motion.ToWorld(point.alpha, point.p_body_m);
     const double r = point.DistanceToPlane(x_world);
@@ -88,21 +56,20 @@ SpuriousInformation SpuriousInformationOf(const std::vector<RegistrationPoint>& 
     const Eigen::Vector3d n = R_end_world * point.normal_world;
     Vector6d j;
     j << n, x.cross(n);
-    const OuterSum::Product product = OuterSum::ProductOf(j);
+    const Matrix6d product = j * j.transpose();
     if (std::isinf(point.normal_variance_rad2)) {
-      no_surface.Add(w, product);
+      spurious.no_surface += w * product;
       continue;
     }
     const double a = w * point.normal_variance_rad2;
-    spurious.by_place[GroupOf(x_world)].Add(w, product);
-    along_normals.Add(a, product);
+    spurious.by_place[GroupOf(x_world)] += w * product;
+    along_normals += a * product;
     first += a * x;
     second.noalias() += a * x * x.transpose();
     spurious.sum += a;
     spurious.sum_of_squares += a * a;
   }
-  spurious.mean = IsotropicSum(spurious.sum, first, second) - along_normals.Matrix();
-  spurious.no_surface = no_surface.Matrix();
+  spurious.mean = IsotropicSum(spurious.sum, first, second) - along_normals;
   return spurious;
 }
 

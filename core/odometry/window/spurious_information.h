@@ -9,25 +9,6 @@
 
 namespace trajlo {
 
-/// A sum of outer products j jᵀ, by its upper triangle.
-class OuterSum {
- public:
-  static constexpr int kSize = 21;
-  using Product = std::array<double, kSize>;
-
-  static Product ProductOf(const Vector6d& j);
-  void Add(double weight, const Product& product) {
-    for (int i = 0; i < kSize; ++i) upper_[Index(i)] += weight * product[Index(i)];
-  }
-  /// uᵀ (sum) u
-  double Along(const Vector6d& u) const;
-  Matrix6d Matrix() const;
-
- private:
-  static std::size_t Index(int i) { return static_cast<std::size_t>(i); }
-  Product upper_{};
-};
-
 /// The information that points seem to give because the normals of their planes are noisy.
 ///
 /// A wall along x tells nothing about x: every normal is perpendicular to it. But the normals come
@@ -37,12 +18,12 @@ class OuterSum {
 ///   F = sum_i w_i G_i Cov(n_i) G_iᵀ,   G_i = [I; [x_i]x],   Cov(n_i) = v_i (I - n_i n_iᵀ),
 ///
 /// with w_i the weight of the point in H (kernel included), x_i its place, j_i = G_i n_i its
-/// Jacobian and v_i the variance of its normal. H - F is what the true planes would have given.
+/// Jacobian and v_i the variance of its normal. H - F is what the true planes would have given. It
+/// is computed when a segment is the newest, and kept.
 struct SpuriousInformation {
   /// F for a rigid perturbation [rho; theta] of the body frame at the end of the segment.
   Matrix6d mean = Matrix6d::Zero();
-  /// Sums of w_i v_i and of (w_i v_i)². With N = sum² / sum_of_squares normals that are
-  /// independent, what is really spurious differs from its mean by the share sqrt(2 / N).
+  /// Sums of w_i v_i and of (w_i v_i)²: how many normals are independent, see ConditionOf.
   double sum = 0.0;
   double sum_of_squares = 0.0;
 
@@ -52,7 +33,9 @@ struct SpuriousInformation {
   /// What the others tell, dealt into groups by where they lie: points of one place, which share
   /// planes, are always in the same group. See ConditionOf.
   static constexpr int kGroups = 16;
-  std::array<OuterSum, kGroups> by_place;
+  std::array<Matrix6d, kGroups> by_place;
+
+  SpuriousInformation() { by_place.fill(Matrix6d::Zero()); }
 };
 
 /// Of the points of one segment.

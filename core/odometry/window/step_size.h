@@ -8,9 +8,9 @@
 
 namespace trajlo {
 
-/// Control poses that moved by less are where they were: rounds end, and planes and linearisations
-/// are kept. What is left to go is a fraction of the last step, and the windows that follow solve
-/// for the same poses again.
+/// Control poses that moved by less are where they were: planes and linearisations are kept, and
+/// rounds end where the next step would be smaller. What is left to go is a fraction of the last
+/// step, and the windows that follow solve for the same poses again.
 struct StepTolerance {
   double translation_m = 5e-3;
   double rotation_rad = 1e-3;

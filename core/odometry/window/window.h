@@ -22,12 +22,6 @@ namespace trajlo {
 /// the segment before it.
 using MotionTerm = std::variant<std::monostate, SmoothnessTerm, WhiteNoiseAccelerationTerm>;
 
-/// The registration of a segment, and where it was linearised.
-struct LinearizedRegistration {
-  SE3 T_world_begin, T_world_end;
-  RegistrationNormalEquations equations;
-};
-
 /// One segment of the window, and all that belongs to it.
 struct Segment {
   SegmentCloud cloud;
@@ -41,14 +35,15 @@ struct Segment {
   std::optional<LinearizedRegistration> linearization;
   /// The part of the information of the registration that comes from the noise of normals.
   SpuriousInformation spurious;
-  unsigned flags = 0;  ///< WindowFlag bits of the window in which this segment was the newest.
+  /// WindowFlag bits of the window in which this segment was the newest, and of what showed later.
+  unsigned flags = 0;
 
   double Duration_s() const { return cloud.Duration_s(); }
 };
 
 /// The sliding window: K segments and their K+1 control poses, and what is left of those before.
 ///
-///   E = sum_k registration_k(T_{k-1}, T_k) + sum_k motion_k + prior(T_0, ...)      (paper eq. 7)
+///   E = sum_k registration_k(T_{k-1}, T_k) + sum_k motion_k + prior(T_0, ...)      (paper eq. 8)
 struct Window {
   std::int64_t begin_ns = 0;
   SE3 T_world_begin;              ///< The control pose at begin_ns.

@@ -2,26 +2,11 @@
 #include "core/odometry/window/window_equations.h"
 
 namespace trajlo {
-namespace {
-
-Vector6d MotionResidual(const Window& window, const std::vector<SE3>& poses, std::size_t k) {
-  const MotionTerm& motion = window.segments[k].motion;
-  if (const auto* known = std::get_if<SmoothnessTerm>(&motion)) {
-    return known->Residual(poses[k], poses[k + 1]);
-  }
-  if (const auto* free = std::get_if<WhiteNoiseAccelerationTerm>(&motion)) {
-    return free->Residual(poses[k - 1], poses[k], poses[k + 1]);
-  }
-  return Vector6d::Zero();
-}
-
-}  // namespace
-
 WindowCost CostWithoutRegistration(const Window& window, const std::vector<SE3>& poses) {
   WindowCost cost;
   cost.prior = 0.5 * window.prior.Residual(poses).squaredNorm();
-  for (std::size_t k = 0; k < window.segments.size(); ++k) {
-    cost.motion += 0.5 * MotionResidual(window, poses, k).squaredNorm();
+  for (int k = 0; k < window.size(); ++k) {
+    cost.motion += 0.5 * LinearizeMotion(window, poses, k).residual.squaredNorm();
   }
   return cost;
 }
@@ -29,15 +14,16 @@ WindowCost CostWithoutRegistration(const Window& window, const std::vector<SE3>&
 LinearizedMotion LinearizeMotion(const Window& window, const std::vector<SE3>& poses, int k) {
   const auto i = static_cast<std::size_t>(k);
   const MotionTerm& motion = window.segments[i].motion;
-  LinearizedMotion linearized = {0, 0, MotionResidual(window, poses, i),
-                                 Eigen::Matrix<double, 6, 18>::Zero()};
+  LinearizedMotion linearized = {0, 0, Vector6d::Zero(), Eigen::Matrix<double, 6, 18>::Zero()};
   if (const auto* known = std::get_if<SmoothnessTerm>(&motion)) {
     linearized.first = k;
     linearized.count = 2;
+    linearized.residual = known->Residual(poses[i], poses[i + 1]);
     linearized.jacobian.leftCols<12>() = known->Jacobian(poses[i], poses[i + 1]);
   } else if (const auto* free = std::get_if<WhiteNoiseAccelerationTerm>(&motion)) {
     linearized.first = k - 1;
     linearized.count = 3;
+    linearized.residual = free->Residual(poses[i - 1], poses[i], poses[i + 1]);
     linearized.jacobian = free->Jacobian(poses[i - 1], poses[i], poses[i + 1]);
   }
   return linearized;
@@ -46,10 +32,7 @@ LinearizedMotion LinearizeMotion(const Window& window, const std::vector<SE3>& p
 void AssembleWindow(const Window& window, const std::vector<SE3>& poses,
                     const std::vector<RegistrationNormalEquations>& registration,
                     WindowNormalEquations* equations) {
-  const Eigen::Index size = 6 * static_cast<Eigen::Index>(poses.size());
-  equations->H.setZero(size, size);
-  equations->g.setZero(size);
-  equations->cost = {};
+  equations->SetZero(static_cast<int>(poses.size()));
   for (int k = 0; k < window.size(); ++k) {
     const RegistrationNormalEquations& segment = registration[static_cast<std::size_t>(k)];
     equations->H.block<12, 12>(6 * k, 6 * k) += segment.H;
@@ -58,16 +41,11 @@ void AssembleWindow(const Window& window, const std::vector<SE3>& poses,
 
     const LinearizedMotion motion = LinearizeMotion(window, poses, k);
     if (motion.count == 0) continue;
-    const auto J = motion.jacobian.leftCols(6 * motion.count);
-    equations->H.block(6 * motion.first, 6 * motion.first, J.cols(), J.cols()).noalias() +=
-        J.transpose() * J;
-    equations->g.segment(6 * motion.first, J.cols()).noalias() += J.transpose() * motion.residual;
+    equations->Add(motion.first, motion.jacobian.leftCols(6 * motion.count), motion.residual);
     equations->cost.motion += 0.5 * motion.residual.squaredNorm();
   }
   const Eigen::VectorXd r = window.prior.Residual(poses);
-  const Eigen::MatrixXd J = window.prior.Jacobian(poses);
-  equations->H.topLeftCorner(J.cols(), J.cols()).noalias() += J.transpose() * J;
-  equations->g.head(J.cols()).noalias() += J.transpose() * r;
+  equations->Add(0, window.prior.Jacobian(poses), r);
   equations->cost.prior = 0.5 * r.squaredNorm();
 }
 

@@ -34,6 +34,19 @@ struct WindowNormalEquations {
   Eigen::MatrixXd H;
   Eigen::VectorXd g;
   WindowCost cost;
+
+  /// No terms yet.
+  void SetZero(int poses) {
+    H.setZero(6 * poses, 6 * poses);
+    g.setZero(6 * poses);
+    cost = {};
+  }
+  /// A term with residual r on the poses from `first` on.
+  void Add(int first, const Eigen::Ref<const Eigen::MatrixXd>& J,
+           const Eigen::Ref<const Eigen::VectorXd>& r) {
+    H.block(6 * first, 6 * first, J.cols(), J.cols()).noalias() += J.transpose() * J;
+    g.segment(6 * first, J.cols()).noalias() += J.transpose() * r;
+  }
 };
 
 /// Adds prior, motion and registration at `poses`; `registration` has one entry a segment, at the

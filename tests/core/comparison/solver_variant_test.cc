@@ -54,7 +54,7 @@ TEST(SolverVariants, OnlySolverKernelAndLinearisationConcernASingleWindow) {
   const auto variants = Load(
       "variants:\n"
       "  - {name: a, set: \"solver.kind=gauss_newton,expert.registration.kernel=huber\"}\n"
-      "  - {name: b, set: \"expert.marginalization.first_estimate_jacobians=false\"}\n"
+      "  - {name: b, set: \"expert.marginalization.first_estimate_jacobians=true\"}\n"
       "  - {name: c, set: \"window.segments=2\"}\n"
       "  - {name: d, set: \"registration.sigma_m=0.2\"}\n");
   EXPECT_TRUE(IsAboutOneWindow(variants[0], base));

@@ -37,8 +37,10 @@ TEST(ConfigValues, NumbersAreStrict) {
 
 TEST(ConfigValues, Flags) {
   EXPECT_FALSE(Overridden("expert.marginalization.enabled=off").odometry.marginalization.enabled);
-  EXPECT_TRUE(Overridden("expert.marginalization.use_qr=yes").odometry.marginalization.use_qr);
-  EXPECT_THAT(OverrideError("expert.marginalization.use_qr=1"), HasSubstr("must be true or false"));
+  EXPECT_TRUE(Overridden("expert.marginalization.first_estimate_jacobians=yes")
+                  .odometry.marginalization.first_estimate_jacobians);
+  EXPECT_THAT(OverrideError("expert.marginalization.enabled=1"),
+              HasSubstr("must be true or false"));
 }
 
 TEST(ConfigValues, ChoicesListTheirNames) {

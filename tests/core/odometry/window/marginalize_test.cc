@@ -29,15 +29,8 @@ Window SolvedWindow(unsigned seed) {
   return window;
 }
 
-TEST(Marginalize, SchurAndQrGiveTheSamePrior) {
-  const Window window = SolvedWindow(16);
-  MarginalizationOptions options;
-  const auto schur = PriorWithoutFirstPose(window, options);
-  options.use_qr = true;
-  const auto qr = PriorWithoutFirstPose(window, options);
-  EXPECT_EQ(schur.poses(), 2);
-  EXPECT_TRUE(schur.Information().isApprox(qr.Information(), 1e-8));
-  EXPECT_LT((schur.Gradient() - qr.Gradient()).norm(), 1e-6 * (1 + qr.Gradient().norm()));
+TEST(Marginalize, ThePriorIsOnThePosesThatTheFirstOneSharedATermWith) {
+  EXPECT_EQ(PriorWithoutFirstPose(SolvedWindow(16), {}).poses(), 2);
 }
 
 TEST(Marginalize, TheSmallerWindowHasItsOptimumWhereTheLargerOneHad) {
