@@ -13,4 +13,9 @@ namespace trajlo {
 /// trajectory without any complaint.
 void RequireExtrinsics(const std::vector<std::string>& inputs, const RunConfig& config);
 
+/// Throws UsageError if an option of `input` that can be a list has neither one value nor one for
+/// each LiDAR that is read, or if one file of stamps is given for several folders.
+void RequireOptionsOfEachLidar(const std::vector<std::string>& inputs,
+                               const RecordingOptions& options);
+
 }  // namespace trajlo

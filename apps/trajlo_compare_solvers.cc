@@ -10,6 +10,7 @@
 #include "apps/compare/compare_job.h"
 #include "apps/config_names.h"
 #include "apps/inputs.h"
+#include "apps/interrupt.h"
 #include "apps/load_config.h"
 #include "apps/require_extrinsics.h"
 #include "apps/split_at_commas.h"
@@ -69,8 +70,9 @@ Flags:
   --quiet                   print warnings and errors only
   -h, --help, --version
 
-Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 5 output not writable, 6 out
-of memory or a defect of the program.
+Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 3 part of the input was
+damaged or in doubt, 4 a run got lost, 5 output not writable, 6 out of memory or a defect of the
+program, 130 interrupted; what was compared until then is written.
 )";
 
 /// Those that `only` names, in its order; all if it is empty.
@@ -100,6 +102,7 @@ trajlo::CompareRequest RequestFromFlags(const trajlo::CommandLine& line) {
   trajlo::ApplyOverrides("threads=" + std::to_string(FLAGS_threads), &request.config, "--threads");
   trajlo::CheckConfig(request.config);
   trajlo::RequireExtrinsics(request.inputs, request.config);
+  trajlo::RequireOptionsOfEachLidar(request.inputs, request.config.input);
   std::filesystem::path variants = FLAGS_variants;
   if (variants.empty()) variants = trajlo::ConfigFolder() / "comparisons" / "solvers.yaml";
   request.variants =
@@ -120,8 +123,7 @@ trajlo::CompareRequest RequestFromFlags(const trajlo::CommandLine& line) {
 }
 
 ExitCode Compare(const trajlo::CommandLine& line) {
-  trajlo::RunComparison(RequestFromFlags(line));
-  return ExitCode::kOk;
+  return trajlo::RunComparison(RequestFromFlags(line), trajlo::HandleInterrupts());
 }
 
 std::vector<std::string> Values(const std::string& flag) {

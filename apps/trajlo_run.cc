@@ -126,6 +126,7 @@ trajlo::RunRequest RequestFromFlags(const trajlo::CommandLine& line) {
   request.inputs = trajlo::InputsOf(line, FLAGS_input);
   if (FLAGS_output.empty()) throw UsageError("--output is missing");
   trajlo::RequireExtrinsics(request.inputs, request.config);
+  trajlo::RequireOptionsOfEachLidar(request.inputs, request.config.input);
   request.output = FLAGS_output;
   request.covariance = FLAGS_covariance;
   request.view = FLAGS_view;

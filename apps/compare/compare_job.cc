@@ -8,9 +8,11 @@
 #include "apps/compare/free_run.h"
 #include "apps/compare/lockstep_run.h"
 #include "apps/compare/truth_error.h"
+#include "apps/print_warnings.h"
 #include "core/evaluation/evaluation_error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
+#include "core/io/stamp_text.h"
 #include "core/report/draw_script.h"
 
 namespace trajlo {
@@ -31,32 +33,6 @@ void PrepareFolder(const CompareRequest& request) {
   fs::remove(fs::path(request.output) / "comparison.json", error);
 }
 
-void Compare(const CompareRequest& request, CompareReport* report) {
-  std::optional<TimedPoses> truth;
-  if (!request.truth.empty()) truth = ReadTruth(request.truth);
-  if (request.lockstep) {
-    for (const SolverVariant& variant : request.variants) {
-      if (IsAboutOneWindow(variant, request.config)) {
-        report->lockstep_variants.push_back(variant);
-      } else {
-        report->not_in_lockstep.push_back(variant.name);
-      }
-    }
-    report->lockstep = RunLockstep(request, report->lockstep_variants);
-  }
-  if (!request.free) return;
-  for (const SolverVariant& variant : request.variants) {
-    FreeResult result = RunFree(request, variant);
-    try {
-      if (truth) result.ate_rmse_m = PositionError(*truth, result.poses);
-    } catch (const EvaluationError& error) {
-      std::fprintf(stderr, "trajlo_compare_solvers: %s: %s\n", variant.name.c_str(), error.what());
-    }
-    report->free.push_back(std::move(result));
-    CompareWithFirst(report->free.front(), &report->free.back());
-  }
-}
-
 void Write(const CompareRequest& request, const CompareReport& report) {
   const fs::path folder = request.output;
   const auto write = [&](const char* name, const std::string& text) {
@@ -68,19 +44,79 @@ void Write(const CompareRequest& request, const CompareReport& report) {
   write("comparison.json", CompareJson(request, report));
 }
 
+std::optional<double> ErrorOf(const FreeResult& result, const std::optional<TimedPoses>& truth) {
+  try {
+    if (truth) return PositionError(*truth, result.poses);
+  } catch (const EvaluationError& error) {
+    std::fprintf(stderr, "trajlo_compare_solvers: %s: %s\n", result.name.c_str(), error.what());
+  }
+  return std::nullopt;
+}
+
+/// Writes after each part, so that what was computed is there whatever comes.
+void Compare(const CompareRequest& request, const std::atomic<bool>& stop, CompareReport* report) {
+  std::optional<TimedPoses> truth;
+  if (!request.truth.empty()) truth = ReadTruth(request.truth);
+  if (request.lockstep) {
+    for (const SolverVariant& variant : request.variants) {
+      if (IsAboutOneWindow(variant, request.config)) {
+        report->lockstep_variants.push_back(variant);
+      } else {
+        report->not_in_lockstep.push_back(variant.name);
+      }
+    }
+    report->lockstep =
+        RunLockstep(request, report->lockstep_variants, stop, &report->lockstep_feed);
+    Write(request, *report);
+  }
+  if (!request.free) return;
+  for (const SolverVariant& variant : request.variants) {
+    if (stop) return;
+    FreeResult result = RunFree(request, variant, stop);
+    result.ate_rmse_m = ErrorOf(result, truth);
+    report->free.push_back(std::move(result));
+    CompareWithFirst(report->free.front(), &report->free.back());
+    Write(request, *report);
+  }
+}
+
+/// What is to be said of the recording, and of the runs; what is worse wins.
+ExitCode Judge(const CompareReport& report, bool was_interrupted) {
+  const Feed& read = report.free.empty() ? report.lockstep_feed : report.free.front().feed;
+  PrintWarnings("trajlo_compare_solvers", read.warnings);
+  ExitCode code = ExitCode::kOk;
+  const auto say = [&](ExitCode worse, const std::string& text) {
+    std::fprintf(stderr, "trajlo_compare_solvers: %s\n", text.c_str());
+    code = worse;
+  };
+  if (!read.missing_input.empty()) say(ExitCode::kPartialInput, read.missing_input);
+  if (const auto at_ns = report.lockstep_feed.lost_at_ns) {
+    say(ExitCode::kLost, "the run in lockstep got lost at " + FormatSeconds(*at_ns) + " s");
+  }
+  for (const FreeResult& result : report.free) {
+    if (!result.feed.lost_at_ns) continue;
+    say(ExitCode::kLost,
+        "'" + result.name + "' got lost at " + FormatSeconds(*result.feed.lost_at_ns) + " s");
+  }
+  if (was_interrupted) {
+    say(ExitCode::kInterrupted, "a signal ended the comparison early; the last run is not whole");
+  }
+  return code;
+}
+
 }  // namespace
 
-void RunComparison(const CompareRequest& request) {
+ExitCode RunComparison(const CompareRequest& request, const std::atomic<bool>& stop) {
   PrepareFolder(request);
   CompareReport report;
-  Compare(request, &report);
-  Write(request, report);
+  Compare(request, stop, &report);
   const std::string problem =
       request.draw ? RunDrawScript("draw_comparison.py", request.output) : "";
   if (!problem.empty()) {
     std::fprintf(stderr, "trajlo_compare_solvers: no figures: %s\n", problem.c_str());
   }
   if (!request.quiet) std::fputs(CompareTables(report).c_str(), stdout);
+  return Judge(report, stop);
 }
 
 }  // namespace trajlo

@@ -60,7 +60,7 @@ std::string FreeTable(const CompareReport& report) {
                    Ratio(r.cpu_s, report.free.front().cpu_s), r.windows.solve_ms / windows,
                    r.rejected_steps, r.max_from_first_m, apart_after.c_str(),
                    r.ate_rmse_m ? Format("%.4f", *r.ate_rmse_m).c_str() : "-",
-                   r.lost_at_ns ? "  lost" : "");
+                   r.feed.lost_at_ns ? "  lost" : "");
   }
   return text;
 }
@@ -80,32 +80,34 @@ Json LockstepJson(const LockstepTotals& t) {
 }
 
 Json FreeJson(const FreeResult& r) {
-  return {{"trajectory", "free/" + r.name + "/trajectory.tum"},
-          {"poses", r.poses.size()},
-          {"cpu_s", r.cpu_s},
-          {"wall_s", r.wall_s},
-          {"windows", r.windows.windows},
-          {"rounds", r.windows.rounds},
-          {"rejected_steps", r.rejected_steps},
-          {"stages_ms",
-           {{"segment", r.windows.segment_ms},
-            {"associate", r.windows.associate_ms},
-            {"solve", r.windows.solve_ms},
-            {"marginalize", r.windows.marginalize_ms},
-            {"map", r.windows.map_ms}}},
-          {"lost_at_s", r.lost_at_ns ? Json(FormatSeconds(*r.lost_at_ns)) : Json(nullptr)},
-          {"max_from_first_m", r.max_from_first_m},
-          {"parts_at_s", r.parts_at_ns ? Json(FormatSeconds(*r.parts_at_ns)) : Json(nullptr)},
-          {"ate_rmse_m", r.ate_rmse_m ? Json(*r.ate_rmse_m) : Json(nullptr)}};
+  return {
+      {"trajectory", "free/" + r.name + "/trajectory.tum"},
+      {"poses", r.poses.size()},
+      {"cpu_s", r.cpu_s},
+      {"wall_s", r.feed.wall_s},
+      {"windows", r.windows.windows},
+      {"rounds", r.windows.rounds},
+      {"rejected_steps", r.rejected_steps},
+      {"stages_ms",
+       {{"segment", r.windows.segment_ms},
+        {"associate", r.windows.associate_ms},
+        {"solve", r.windows.solve_ms},
+        {"marginalize", r.windows.marginalize_ms},
+        {"map", r.windows.map_ms}}},
+      {"lost_at_s", r.feed.lost_at_ns ? Json(FormatSeconds(*r.feed.lost_at_ns)) : Json(nullptr)},
+      {"max_from_first_m", r.max_from_first_m},
+      {"parts_at_s", r.parts_at_ns ? Json(FormatSeconds(*r.parts_at_ns)) : Json(nullptr)},
+      {"ate_rmse_m", r.ate_rmse_m ? Json(*r.ate_rmse_m) : Json(nullptr)}};
 }
 
-CsvRow NumbersOf(const std::string& name, const Json& values) {
+CsvRow RowOf(const std::string& name, const Json& values) {
   CsvRow row;
   row.Add("variant", name);
   for (const auto& [key, value] : values.items()) {
-    if (value.is_number() || value.is_null()) {
-      row.Add(key.c_str(), value.is_null() ? "" : value.dump());
-    }
+    // Every row has the same columns, whatever is known of its variant.
+    if (value.is_number()) row.Add(key.c_str(), value.dump());
+    if (value.is_null()) row.Add(key.c_str(), std::string());
+    if (value.is_string()) row.Add(key.c_str(), value.get<std::string>());
   }
   return row;
 }
@@ -152,14 +154,13 @@ std::string CompareJson(const CompareRequest& request, const CompareReport& repo
         {"ceres", v.ceres},
         {"compiler", v.compiler}}},
       {"variants", variants}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string LockstepSummaryCsv(const CompareReport& report) {
   std::string text;
   for (std::size_t i = 0; i < report.lockstep.size(); ++i) {
-    const CsvRow row =
-        NumbersOf(report.lockstep_variants[i].name, LockstepJson(report.lockstep[i]));
+    const CsvRow row = RowOf(report.lockstep_variants[i].name, LockstepJson(report.lockstep[i]));
     text += (i == 0 ? row.Names() : "") + row.Values();
   }
   return text;
@@ -168,7 +169,7 @@ std::string LockstepSummaryCsv(const CompareReport& report) {
 std::string FreeSummaryCsv(const CompareReport& report) {
   std::string text;
   for (std::size_t i = 0; i < report.free.size(); ++i) {
-    const CsvRow row = NumbersOf(report.free[i].name, FreeJson(report.free[i]));
+    const CsvRow row = RowOf(report.free[i].name, FreeJson(report.free[i]));
     text += (i == 0 ? row.Names() : "") + row.Values();
   }
   return text;

@@ -16,6 +16,7 @@ struct CompareReport {
   /// The variants of the lockstep run and, in the same order, what they did.
   std::vector<SolverVariant> lockstep_variants;
   std::vector<LockstepTotals> lockstep;
+  Feed lockstep_feed;
   /// Variants that differ in more than the solution of a window.
   std::vector<std::string> not_in_lockstep;
   std::vector<FreeResult> free;

@@ -2,15 +2,11 @@
 #include "apps/compare/free_run.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "core/comparison/forms/ceres_form_solver.h"
-#include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_writer.h"
 #include "core/odometry/odometry.h"
-#include "core/odometry/stopwatch.h"
-#include "core/report/progress_bar.h"
 #include "core/report/resource_usage.h"
 #include "core/report/window_csv.h"
 
@@ -22,7 +18,8 @@ constexpr double kSame_m = 1e-6;
 
 }  // namespace
 
-FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant) {
+FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant,
+                   const std::atomic<bool>& stop) {
   FreeResult result;
   result.name = variant.name;
   const std::filesystem::path folder =
@@ -31,7 +28,6 @@ FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant) 
   WindowCsvWriter windows(folder / "windows.csv", IfExists::kReplace);
 
   const double cpu_begin_s = ProcessCpuSeconds();
-  Stopwatch watch;
   Odometry odometry(variant.odometry, MakeSolverFactory(variant.ceres_form));
   double inlier_share = 0.0;
   odometry.OnWindow([&](const WindowStatistics& window) {
@@ -40,21 +36,8 @@ FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant) 
     result.rejected_steps += window.rejected_steps;
     inlier_share = window.InlierShare();
   });
-  const auto recording = OpenRecording(request.inputs, request.config.input);
-  ProgressBar bar(stderr, request.quiet);
-  std::int64_t first_ns = 0;
-  LidarScan scan;
-  for (std::size_t count = 0; recording->Next(&scan); ++count) {
-    if (count == 0) first_ns = scan.stamp_ns;
-    odometry.AddScan(scan);
-    result.wall_s += watch.Seconds();
-    bar.Update({count + 1, recording->size(), 1e-9 * static_cast<double>(scan.stamp_ns - first_ns),
-                result.wall_s, inlier_share});
-  }
-  odometry.Finish();
-  result.wall_s += watch.Seconds();
+  result.feed = FeedRecording(request, stop, inlier_share, &odometry);
   result.cpu_s = ProcessCpuSeconds() - cpu_begin_s;
-  result.lost_at_ns = odometry.lost_at_ns();
 
   TumWriter trajectory(folder / "trajectory.tum", IfExists::kReplace);
   for (const ControlPose& pose : odometry.trajectory().poses()) {

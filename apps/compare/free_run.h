@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/compare/compare_request.h"
+#include "apps/compare/feed_recording.h"
 #include "core/io/trajectory_reader.h"
 #include "core/report/window_totals.h"
 
@@ -19,8 +21,7 @@ struct FreeResult {
   WindowTotals windows;
   int rejected_steps = 0;
   double cpu_s = 0.0;  ///< Of the whole process while it ran: reading and estimating.
-  double wall_s = 0.0;
-  std::optional<std::int64_t> lost_at_ns;
+  Feed feed;
   /// Against the first variant: the largest distance of two poses of the same time, and the time
   /// of the first pair that is farther apart than a micrometre.
   double max_from_first_m = 0.0;
@@ -30,8 +31,9 @@ struct FreeResult {
 };
 
 /// Runs the variant on the recording and writes `free/<name>/trajectory.tum` and `windows.csv`.
-/// Throws InputError, OutputError.
-FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant);
+/// Ends early when `stop` is set. Throws InputError, OutputError.
+FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant,
+                   const std::atomic<bool>& stop);
 
 /// Fills in what compares a result with the first one.
 void CompareWithFirst(const FreeResult& first, FreeResult* result);

@@ -65,7 +65,8 @@ double FindTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
   search.around_s = options.time_offset_s;
   search.reach_s = options.time_offset_reach_s;
   search.max_gap_s = options.association.max_gap_s;
-  search.with_scale = options.alignment.kind == AlignmentKind::kSim3;
+  const AlignmentKind kind = options.alignment.kind;
+  search.with_scale = kind == AlignmentKind::kSim3 || kind == AlignmentKind::kScale;
   const TimeOffset found =
       EstimateTimeOffset(InFrame(estimate, options.T_body_truth), truth, search);
   if (!found.warning.empty()) evaluation->warnings.push_back(found.warning);

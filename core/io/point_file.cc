@@ -38,21 +38,20 @@ void CheckPlausible(const std::filesystem::path& path, const PointTable& table) 
       "A .bin scan holds float32 x y z intensity, or x y z intensity ring, and nothing else.");
 }
 
-constexpr std::size_t kRingBytes = 5 * sizeof(float);
-
-/// True for x y z intensity ring, as nuScenes has them: the last of five numbers is a small whole
-/// one in every point, which of coordinates and intensities only zeros are. A file that was cut may
-/// end within a point.
-bool HasRings(const FileBytes& bytes) {
-  const std::size_t checked = std::min<std::size_t>(bytes.size() / kRingBytes, 10000);
-  bool any = false;
+/// True if the fifth of `numbers` in a point is its ring: a small whole number, which of
+/// coordinates and intensities only zeros are. A file that was cut may end within a point, and a
+/// few numbers may be spoilt.
+bool HasRings(const FileBytes& bytes, std::size_t numbers) {
+  const std::size_t row_bytes = numbers * sizeof(float);
+  const std::size_t checked = std::min<std::size_t>(bytes.size() / row_bytes, 10000);
+  std::size_t rings = 0, zeros = 0;
   for (std::size_t i = 0; i < checked; ++i) {
     float ring = 0.0F;
-    std::memcpy(&ring, bytes.data() + i * kRingBytes + 4 * sizeof(float), sizeof(ring));
-    if (!(ring >= 0.0F && ring < 256.0F && ring == std::floor(ring))) return false;
-    any = any || ring > 0.0F;
+    std::memcpy(&ring, bytes.data() + i * row_bytes + 4 * sizeof(float), sizeof(ring));
+    rings += ring >= 0.0F && ring < 256.0F && ring == std::floor(ring) ? 1 : 0;
+    zeros += ring == 0.0F ? 1 : 0;
   }
-  return any;
+  return rings > zeros && 100 * (checked - rings) <= checked;
 }
 
 /// Float32 without a header: KITTI's x y z intensity, or with a ring behind them.
@@ -62,7 +61,13 @@ PointTable ReadBin(const std::filesystem::path& path, FileBytes bytes) {
                      "Give the file itself in place of its folder.");
   }
   std::vector<const char*> names = {"x", "y", "z", "intensity"};
-  if (HasRings(bytes)) names.push_back("ring");
+  if (HasRings(bytes, 5)) names.push_back("ring");
+  for (const std::size_t more : {6, 7, 8}) {
+    if (bytes.size() % (more * sizeof(float)) != 0 || !HasRings(bytes, more)) continue;
+    throw InputError(path, "this seems to hold " + std::to_string(more) + " numbers a point",
+                     "A .bin scan holds float32 x y z intensity, or x y z intensity ring. Write "
+                     "such a file, or a .pcd with the names of its fields.");
+  }
   const std::size_t row_bytes = names.size() * sizeof(float);
   PointTable table;
   table.count = bytes.size() / row_bytes;

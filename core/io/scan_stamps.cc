@@ -7,6 +7,8 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <regex>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -47,11 +49,32 @@ std::string_view StampPart(std::string_view stem) {
   return part;
 }
 
+/// A file name that ends in a date and a time of day with a fraction: 2020-03-10-12-30-58.500,
+/// 20200310T123058.5, scan_2020-03-10_12:30:58.500.
+std::optional<std::int64_t> DateTimeOfName(const std::string& stem) {
+  static const std::regex form(
+      R"((?:.*[^0-9])?(\d{4})-?(\d\d)-?(\d\d)[-_T ](\d\d)[-:_]?(\d\d)[-:_]?(\d\d\.\d+))");
+  std::smatch part;
+  if (!std::regex_match(stem, part, form)) return {};
+  return ParseDateTimeNs(part.str(1) + "-" + part.str(2) + "-" + part.str(3) + " " + part.str(4) +
+                         ":" + part.str(5) + ":" + part.str(6));
+}
+
+/// Whether numbers stand before the last one, of which it may be but a part: the seconds of
+/// "10-12-30-58.500" begin again after a minute.
+bool IsPartOfMore(std::string_view stem, std::string_view part) {
+  const auto before = static_cast<std::size_t>(part.data() - stem.data());
+  constexpr std::size_t kEpochDigits = 9;
+  return part.find('.') < kEpochDigits && before >= 3 && AllDigits(stem.substr(before - 3, 2));
+}
+
 /// A file name that is a stamp: 1583836591.182590976, 1583836591182590976, 1583836591_182590976.
 /// Short whole numbers are indices, not stamps.
 std::optional<std::int64_t> StampOfName(const fs::path& file) {
   const std::string stem = file.stem().string();
+  if (const auto date_time = DateTimeOfName(stem)) return date_time;
   const std::string_view part = StampPart(stem);
+  if (IsPartOfMore(stem, part)) return {};
   if (AllDigits(part)) {
     const auto unit_ns = UnitOfWholeStampNs(part);
     return part.size() > 10 && unit_ns ? ParseDecimalNs(part, *unit_ns) : std::nullopt;

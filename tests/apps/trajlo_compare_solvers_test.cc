@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/apps/command_testing.h"
 #include "tests/support/room_recording.h"
@@ -62,6 +63,30 @@ TEST_F(TrajloCompareSolversTest, VariantsThatChangeMoreThanTheSolverAreComparedB
   EXPECT_FALSE(json["variants"][1].contains("lockstep"));
   EXPECT_TRUE(json["variants"][1].contains("free"));
   EXPECT_THAT(outcome.out, HasSubstr("by whole runs only: two"));
+}
+
+TEST_F(TrajloCompareSolversTest, EveryRowHasAllColumnsWhereTrajectoriesPart) {
+  ASSERT_EQ(Call({"--only=gauss_newton,kernel_huber", "--mode=free"}).exit_code, 0);
+  const auto json = nlohmann::json::parse(Result("comparison.json"));
+  ASSERT_TRUE(json["variants"][1]["free"]["parts_at_s"].is_string());
+  std::istringstream lines(Result("free_summary.csv"));
+  std::string names, line;
+  std::getline(lines, names);
+  while (std::getline(lines, line)) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','),
+              std::count(names.begin(), names.end(), ','))
+        << line;
+  }
+  EXPECT_THAT(line = Result("free_summary.csv"),
+              HasSubstr(json["variants"][1]["free"]["parts_at_s"].get<std::string>()));
+}
+
+TEST_F(TrajloCompareSolversTest, DamageOfTheInputIsToldAndHasItsExitCode) {
+  WriteFile(temp_ / "in" / "scans" / "000003.pcd", "no cloud");
+  const Outcome outcome = Call({"--only=gauss_newton"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("000003.pcd"));
+  EXPECT_FALSE(Result("comparison.json").empty());
 }
 
 TEST_F(TrajloCompareSolversTest, ErrorsHaveTheDocumentedCodes) {

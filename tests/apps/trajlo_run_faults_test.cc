@@ -72,6 +72,22 @@ TEST_F(TrajloRunTest, MorePosesThanLidarsAreRefused) {
   EXPECT_EQ(Run({"--set=sensor.T_body_lidar=[{}]"}).exit_code, 0);
 }
 
+TEST_F(TrajloRunTest, OptionsOfEachLidarAreOneOrAsManyAsThereAreLidars) {
+  RoomRecording room;
+  room.scans = 4;
+  room.Write(temp_ / "in/lidar0");
+  room.Write(temp_ / "in/lidar1");
+  const std::string poses = "--set=sensor.T_body_lidar=[{}, {}],";
+  const Outcome three = Run({poses + "input.clock_offset_s=[0,0,1]"});
+  EXPECT_EQ(three.exit_code, 1);
+  EXPECT_THAT(three.err, HasSubstr("input.clock_offset_s has 3 values, and 2 LiDARs are read"));
+  const Outcome stamps = Run({poses + "input.stamps_file=stamps.txt"});
+  EXPECT_EQ(stamps.exit_code, 1);
+  EXPECT_THAT(stamps.err, HasSubstr("input.stamps_file: 2 LiDARs are read"));
+  EXPECT_FALSE(fs::exists(output()));
+  EXPECT_EQ(Run({poses + "input.clock_offset_s=[0,0],input.stamp_at=start"}).exit_code, 0);
+}
+
 TEST_F(TrajloRunTest, SeveralTopicsWithoutTheirPosesAreRefused) {
   WriteFile(temp_ / "in.bag", "");
   const Outcome outcome =

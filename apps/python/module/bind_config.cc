@@ -30,6 +30,7 @@ py::dict KeysWithMeaning() {
 /// As trajlo_run does before it reads, where the poses of LiDARs are given.
 void CheckExtrinsics(const std::vector<std::string>& inputs, const RunConfig& config) {
   if (!config.odometry.segmenter.T_body_lidar.empty()) RequireExtrinsics(inputs, config);
+  RequireOptionsOfEachLidar(inputs, config.input);
 }
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace trajlo {
 
 ChainedClouds::ChainedClouds(std::vector<std::unique_ptr<CloudMessageReader>> parts) {
   for (auto& reader : parts) {
-    Part part{std::move(reader), {}};
+    Part part{std::move(reader), {}, {}};
+    part.merger.Take(part.reader->report(), &report_);
     for (std::size_t i = 0; i < part.reader->topics().size(); ++i) {
       const Topic& topic = part.reader->topics()[i];
       const auto known = std::find_if(topics_.begin(), topics_.end(), [&](const Topic& other) {
@@ -39,23 +40,16 @@ void ChainedClouds::Select(const std::vector<std::size_t>& topics) {
 }
 
 bool ChainedClouds::Next(CloudMessage* message) {
-  for (; current_ < parts_.size(); FinishPart()) {
+  for (; current_ < parts_.size(); parts_[current_++].reader.reset()) {
     Part& part = parts_[current_];
-    if (!part.reader->Next(message)) continue;
+    const bool is_read = part.reader->Next(message);
+    // At once: reading may stop within a part.
+    part.merger.Take(part.reader->report(), &report_);
+    if (!is_read) continue;
     message->topic = part.common_topic[message->topic];
     return true;
   }
   return false;
-}
-
-/// Takes over what the part reports, and frees what it holds.
-void ChainedClouds::FinishPart() {
-  Part& part = parts_[current_++];
-  const MessageReport& own = part.reader->report();
-  report_.damaged = report_.damaged || own.damaged;
-  report_.bytes_lost += own.bytes_lost;
-  report_.warnings.insert(report_.warnings.end(), own.warnings.begin(), own.warnings.end());
-  part.reader.reset();
 }
 
 }  // namespace trajlo

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/io/messages/cloud_message.h"
+#include "core/io/messages/report_merger.h"
 
 namespace trajlo {
 
@@ -27,8 +28,8 @@ class ChainedClouds : public CloudMessageReader {
     std::unique_ptr<CloudMessageReader> reader;
     /// Of the part's topics, their place in the common list.
     std::vector<std::size_t> common_topic;
+    ReportMerger merger;
   };
-  void FinishPart();
 
   std::vector<Part> parts_;
   std::vector<Topic> topics_;

@@ -14,7 +14,7 @@
 
 namespace trajlo {
 
-/// One value for all LiDARs, or one for each; the last holds for all LiDARs beyond the list.
+/// One value for all LiDARs, or one for each.
 template <typename T>
 struct PerLidar {
   std::vector<T> values{T{}};  ///< Never empty.

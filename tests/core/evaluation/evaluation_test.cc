@@ -81,6 +81,18 @@ TEST(TimeOffset, OfTwoClocksIsFound) {
   }
 }
 
+TEST(TimeOffset, IsFoundWhereTheScaleDiffers) {
+  TimedPoses truth = SmoothPoses(0.0, 0.01, 2000);
+  for (Eigen::Affine3d& T : truth.T_world_body) T.translation() *= 2.0;
+  for (const AlignmentKind kind : {AlignmentKind::kSim3, AlignmentKind::kScale}) {
+    EvaluationOptions options;
+    options.estimate_time_offset = true;
+    options.alignment.kind = kind;
+    EXPECT_NEAR(Evaluate(SmoothPoses(2.0, 0.1, 100, 0.137), truth, options).time_offset_s, -0.137,
+                1e-3);
+  }
+}
+
 TEST(TimeOffset, AtTheEndOfTheRangeIsNotBelieved) {
   EvaluationOptions options;
   options.estimate_time_offset = true;

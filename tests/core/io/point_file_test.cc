@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/io/errors.h"
 #include "tests/core/io/io_testing.h"
@@ -176,9 +177,34 @@ TEST(PointFile, ABinWithFiveNumbersAPointIsToldByItsRings) {
   EXPECT_EQ(cut.FieldNames(), "x y z intensity ring");
   EXPECT_EQ(cut.count, 319U);
   EXPECT_THAT(cut.damage, HasSubstr("319 points of 20 bytes and a rest of 13"));
+  // A number that is not finite among the rings changes nothing.
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::string spoilt = bytes;
+  spoilt.replace(20 * 7 + 16, sizeof(nan), reinterpret_cast<const char*>(&nan), sizeof(nan));
+  EXPECT_EQ(ReadPointFile(folder.Write("nan.bin", spoilt)).FieldNames(), "x y z intensity ring");
   // The same numbers, but no rings: five is not certain, and four leave no rest here.
   for (std::size_t i = 0; i < 320; ++i) bytes[20 * i + 16] = '\x11';
   EXPECT_EQ(ReadPointFile(folder.Write("b.bin", bytes)).FieldNames(), "x y z intensity");
+}
+
+TEST(PointFile, ABinWithMoreNumbersAPointIsRefused) {
+  const TempFolder folder;
+  std::string bytes;
+  for (int i = 0; i < 320; ++i) {
+    const float row[] = {0.25F * static_cast<float>(i) + 0.1F,
+                         -3.3F,
+                         1.7F,
+                         static_cast<float>(i % 90),
+                         static_cast<float>(i % 32),
+                         1e-4F * static_cast<float>(i)};
+    bytes.append(reinterpret_cast<const char*>(row), sizeof(row));
+  }
+  try {
+    ReadPointFile(folder.Write("six.bin", bytes));
+    FAIL() << "rings and times were taken for coordinates";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("6 numbers a point"));
+  }
 }
 
 TEST(PointFile, BinaryDataThatIsNoScanIsRefusedAsKittiBin) {

@@ -240,6 +240,20 @@ TEST_F(StampSearch, NamesInNanosecondsOrSecondsAndNanosecondsAreStamps) {
   EXPECT_THAT(Find().t_ns, ElementsAre(1583836591182590976, 1583836592082590976));
 }
 
+TEST_F(StampSearch, NamesWithADateAndATimeOfDayAreStamps) {
+  folder_.Write("2020-03-10-12-30-59.950.pcd", "");
+  folder_.Write("20200310T123100.050.pcd", "");
+  folder_.Write("cloud_2020-03-10_12:31:00.15.pcd", "");
+  EXPECT_THAT(Find().t_ns,
+              ElementsAre(1583843459950000000, 1583843460050000000, 1583843460150000000));
+}
+
+TEST_F(StampSearch, SecondsOfADayThatIsNotUnderstoodAreNoStamps) {
+  folder_.Write("10Mar20-12-30-59.950.pcd", "");
+  folder_.Write("10Mar20-12-31-00.050.pcd", "");
+  EXPECT_THAT(Find().t_ns, IsEmpty());
+}
+
 TEST_F(StampSearch, NumbersThatAreIndicesAreNotStamps) {
   folder_.Write("0000000000.bin", "");
   folder_.Write("0000000001.bin", "");

@@ -182,6 +182,21 @@ TEST(ChainedClouds, ReadsPartsOneAfterTheOtherAndJoinsTopicsByName) {
   EXPECT_EQ(chain.report().bytes_lost, 7u);
 }
 
+TEST(ChainedClouds, ReportsDamageAtOnce) {
+  MessageReport damaged;
+  damaged.warnings = {"the index is broken"};
+  auto first = std::make_unique<FakeClouds>(std::vector<std::string>{"/cloud"},
+                                            RegularMessages(3, 0), damaged);
+  CloudMessage message;
+  while (first->Next(&message)) {
+  }
+  std::vector<std::unique_ptr<CloudMessageReader>> parts;
+  parts.push_back(std::move(first));
+  const ChainedClouds chain(std::move(parts));
+  EXPECT_THAT(chain.report().warnings, ElementsAre("the index is broken"))
+      << "before a message was read";
+}
+
 TEST(Excerpt, KeepsTheScansWithinItsTime) {
   Excerpt excerpt(Open(FakeClouds({"/cloud"}, RegularMessages(30, 100 * kMs))), 500 * kMs,
                   300 * kMs);
