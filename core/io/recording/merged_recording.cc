@@ -9,7 +9,7 @@ namespace trajlo {
 MergedRecording::MergedRecording(std::vector<std::unique_ptr<ScanSource>> sources) {
   for (auto& source : sources) {
     description_ += (description_.empty() ? "" : "\n") + source->description();
-    heads_.push_back({std::move(source), {}, false, 0});
+    heads_.push_back({std::move(source), {}, false, 0, 0});
   }
   for (Head& head : heads_) head.filled = head.source->Next(&head.scan);
   by_record_times_ = std::all_of(heads_.begin(), heads_.end(), [](const Head& head) {
@@ -45,8 +45,9 @@ std::size_t MergedRecording::size() const {
 }
 
 void MergedRecording::UpdateReport() {
+  std::vector<std::string> warnings = std::move(report_.warnings);
   report_ = {};
-  for (const Head& head : heads_) {
+  for (Head& head : heads_) {
     const ReadReport& part = head.source->report();
     report_.scans_listed += part.scans_listed;
     report_.scans_read += part.scans_read;
@@ -55,8 +56,11 @@ void MergedRecording::UpdateReport() {
     report_.file_is_cut = report_.file_is_cut || part.file_is_cut;
     report_.points_read += part.points_read;
     report_.points_without_time += part.points_without_time;
-    report_.warnings.insert(report_.warnings.end(), part.warnings.begin(), part.warnings.end());
+    for (; head.warnings < part.warnings.size(); ++head.warnings) {
+      warnings.push_back(part.warnings[head.warnings]);
+    }
   }
+  report_.warnings = std::move(warnings);
 }
 
 }  // namespace trajlo

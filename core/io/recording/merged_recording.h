@@ -29,6 +29,8 @@ class MergedRecording : public ScanSource {
     bool filled;
     /// Of `scan`: its order among the others.
     std::int64_t order_ns;
+    /// How many of its source are in the report.
+    std::size_t warnings;
   };
   void SetOrder(Head* head) const;
   void UpdateReport();
