@@ -76,16 +76,6 @@ class SegmentLinearizer {
   RegistrationNormalEquations Finish(const Sum& sum) const;
 
  private:
-  template <typename T>
-  struct Lanes;
-  template <typename T>
-  void LinearizeLanes(const RegistrationPoint* points, int group, Lanes<T>* sums) const;
-  template <typename T>
-  void RunLinearize(const RegistrationPoint* points, size_t count, Sum* sum) const;
-  template <typename T>
-  double RunCost(const RegistrationPoint* points, size_t count) const;
-  size_t Vectorised(size_t count) const;
-
   SegmentMotion motion_;
   RegistrationNoise noise_;
 };

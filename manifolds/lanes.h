@@ -14,16 +14,6 @@ namespace trajlo::lanes {
 typedef double Lane4 __attribute__((vector_size(32)));  // NOLINT(modernize-use-using): GCC's form
 typedef float Float4 __attribute__((vector_size(16)));  // NOLINT(modernize-use-using)
 
-template <typename T>
-inline constexpr int kLanes = 1;
-template <>
-inline constexpr int kLanes<Lane4> = 4;
-
-inline double& At(double& value, int) { return value; }
-inline double& At(Lane4& value, int lane) { return reinterpret_cast<double*>(&value)[lane]; }
-inline double At(const double& value, int) { return value; }
-inline double At(const Lane4& value, int lane) { return value[lane]; }
-
 /// Lanes of a and b by number: 0 to 3 are those of a, 4 to 7 those of b.
 template <int i, int j, int k, int l>
 Lane4 Shuffle(const Lane4& a, const Lane4& b) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "manifolds/lanes.h"
 #include "manifolds/se3.h"
 
@@ -44,11 +46,26 @@ struct SegmentMotion {
            alpha * lanes::Broadcast3<T>(rho) + k3 * lanes::Broadcast3<T>(theta_x_theta_x_rho);
   }
 
-  /// The points in the world, for segments that turn by less than a radian.
+  /// The Stumpff functions at alpha² angle_squared.
+  StumpffSeries<lanes::Lane4> StumpffAt(const lanes::Lane4& alpha) const {
+    const lanes::Lane4 s = alpha * alpha * angle_squared;
+    StumpffSeries<lanes::Lane4> c(s, std::min(angle_squared, 1.0));
+    for (int i = 0; i < 4 && angle_squared > 1.0; ++i) {
+      const Stumpff at(s[i]);
+      c.c0[i] = at.c0;
+      c.c1[i] = at.c1;
+      c.c2[i] = at.c2;
+      c.c3[i] = at.c3;
+      c.c4[i] = at.c4;
+      c.c5[i] = at.c5;
+    }
+    return c;
+  }
+
+  /// Four points in the world.
   lanes::Vector3<lanes::Lane4> ToWorld(const lanes::Lane4& alpha,
                                        const lanes::Vector3<lanes::Lane4>& p) const {
-    const StumpffSeries<lanes::Lane4> c(alpha * alpha * angle_squared, angle_squared);
-    return lanes::Rotate(R_begin, MoveToBegin(alpha, c, p)) +
+    return lanes::Rotate(R_begin, MoveToBegin(alpha, StumpffAt(alpha), p)) +
            lanes::Broadcast3<lanes::Lane4>(t_begin);
   }
 

@@ -21,8 +21,7 @@ Lane4 LoadFour(const SegmentPoint& point) {
 void PointsToWorld(const SegmentMotion& motion, const SegmentPoint* points, std::size_t count,
                    Eigen::Vector3d* places_world) {
   std::size_t i = 0;
-  // The series that lanes sum need less than a radian.
-  for (; motion.angle_squared < 1.0 && i + 4 <= count; i += 4) {
+  for (; i + 4 <= count; i += 4) {
     lanes::Vector3<Lane4> p = {LoadFour(points[i]), LoadFour(points[i + 1]),
                                LoadFour(points[i + 2])};
     Lane4 alpha = LoadFour(points[i + 3]);
