@@ -7,7 +7,7 @@ simulates each scene at rest and in motion with a few seeds, runs them with `--c
 prints a table (Markdown): the mean normalised error squared of the change between two poses, so
 many seconds apart, divided by its expected value. 1 is right, more is optimistic; see
 check_covariance.py for the definition. What is already in the folder is not made again.
-Needs Debian's python3-numpy and python3-scipy.
+Needs Debian's python3-numpy, python3-scipy and python3-yaml.
 """
 import argparse
 import pathlib
@@ -17,6 +17,8 @@ import sys
 import numpy as np
 
 import check_covariance
+from trajlo_batch.places import read_json_if
+from trajlo_batch.results import dig
 
 SCENARIOS = ("hall_os1_16", "courtyard_os1_16", "office_os0_64", "facade_os1_16", "corridor_vlp16",
              "street_hdl64", "forest_mid360", "stairwell_xt32")
@@ -30,7 +32,8 @@ def make_run(programs, folder, scenario, kind, seed):
     """The recording and its result, unless they are there."""
     parameters, _, duration_s = KINDS[kind]
     recording, result = folder / "recording", folder / "result"
-    if (result / "run.json").exists():
+    # run.json is there from the start of a run on, and after one that failed.
+    if dig(read_json_if(result / "run.json"), "exit", "code") == 0:
         return
     subprocess.run([programs / "trajlo_simulate", f"--scenario={scenario}", f"--seed={seed}",
                     f"--duration_s={duration_s}", f"--set={parameters}", f"--output={recording}",
