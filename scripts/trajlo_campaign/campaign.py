@@ -74,10 +74,11 @@ class Campaign:
             shutil.rmtree(folder, ignore_errors=True)
 
     def keep(self, folder, verdict, row, command):
+        target = self.kept / folder.name
+        # Also of a run that is well now: an interruption looks like a crash to the run it ends.
+        shutil.rmtree(target, ignore_errors=True)
         if not self.keep_all and verdict.verdict not in judge.BAD:
             return
-        target = self.kept / folder.name
-        shutil.rmtree(target, ignore_errors=True)
         target.mkdir(parents=True)
         lines = [f"{key}: {value}" for key, value in row.items()]
         lines.append("command: " + " ".join(map(str, command)))

@@ -5,8 +5,12 @@ import csv
 import io
 
 from trajlo_campaign import judge
+from trajlo_campaign.scenes import CampaignError
 from trajlo_report import page
 from trajlo_report.files import write_atomically
+
+NUMBERS = ("run", "seed", "limit_m", "error_m", "end_error_m", "poses", "poses_wrong",
+           "poses_flagged", "covered", "first_wrong_s", "cpu_s", "memory_mb")
 
 
 def cell(value):
@@ -20,6 +24,30 @@ def to_csv(rows):
         writer.writerow(rows[0])
     writer.writerows([cell(value) for value in row.values()] for row in rows)
     return stream.getvalue()
+
+
+def number(text):
+    if not text:
+        return None
+    return int(text) if text.lstrip("-").isdigit() else float(text)
+
+
+def read_rows(output, seed, version):
+    """The rows that earlier calls left, by number of the run. Throws CampaignError if they are of
+    another campaign: those of this one would be mixed with them."""
+    path = output / "results.csv"
+    if not path.is_file():
+        return {}
+    with path.open(newline="") as file:
+        rows = [{key: number(value) if key in NUMBERS else value for key, value in row.items()}
+                for row in csv.DictReader(file)]
+    for row in rows:
+        for name, here in (("seed", seed), ("version", version)):
+            there = row.get(name, "unknown")
+            if there != here:
+                raise CampaignError(f"{path} is of {name} {there}, and this campaign of {here}; "
+                                    "name another --output")
+    return {row["run"]: row for row in rows}
 
 
 def percent(count, total):
@@ -59,7 +87,9 @@ def summary(rows):
 
 
 def write(output, rows, seed, version):
-    rows = sorted(rows, key=lambda row: row["run"])
+    """`rows` by number of the run, with those of earlier calls."""
+    rows = [{"run": number, "seed": seed, "version": version, **row}
+            for number, row in sorted(rows.items())]
     write_atomically(output / "results.csv", to_csv(rows))
     write_atomically(output / "summary.txt", summary(rows) + "\n")
     write_atomically(output / "report.html", page.render(
