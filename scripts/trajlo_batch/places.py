@@ -46,6 +46,15 @@ def file_digest(path):
     return sha.hexdigest()[:16]
 
 
+def data_identity(path):
+    """What changes when a file, or the files in a folder, do. Recordings have many gigabytes, and
+    their digest would take minutes."""
+    files = [file for file in (path, *path.rglob("*")) if file.is_file()]
+    stats = [file.stat() for file in files]
+    return {"files": len(stats), "bytes": sum(item.st_size for item in stats),
+            "newest_ns": max((item.st_mtime_ns for item in stats), default=0)}
+
+
 def identify(program):
     """What --version says, and a digest of the file: a rebuilt program is another program."""
     if not program.is_file():

@@ -8,7 +8,8 @@ import dataclasses
 import subprocess
 
 from trajlo_batch.kitti_calib import camera_in_lidar
-from trajlo_batch.places import (ROOT, digest, file_digest, identify, read_json_if, write_json)
+from trajlo_batch.places import (ROOT, data_identity, digest, file_digest, identify, read_json_if,
+                                 write_json)
 from trajlo_batch.yaml_lines import SuiteError
 
 DONE, MISSING, CHANGED = "done", "missing", "changed"
@@ -56,7 +57,8 @@ def recording_identity(places, sequence):
     if sequence.scenario:
         return {"scenario": sequence.scenario, "seed": sequence.seed,
                 "duration_s": sequence.duration_s, "parameters": sequence.parameters}
-    return {"paths": [str(places.find(path, places.data)) for path in sequence.recording]}
+    paths = [places.find(path, places.data) for path in sequence.recording]
+    return {"paths": [str(path) for path in paths], "data": [data_identity(path) for path in paths]}
 
 
 def config_files(places, sequence, configuration):
@@ -91,7 +93,9 @@ def make_run(suite, places, programs, configuration, sequence, cache):
     if key not in cache:
         cache[key] = effective_options(places, suite, configuration, sequence)
     options, files, values = cache[key]
-    recording = recording_identity(places, sequence)
+    if sequence.name not in cache:
+        cache[sequence.name] = recording_identity(places, sequence)
+    recording = cache[sequence.name]
     truth = places.find(sequence.truth, places.data) if sequence.truth else None
     job = {
         "configuration": configuration.name, "sequence": sequence.name,

@@ -2,6 +2,7 @@
 """A plan knows what is done, what has changed, and never overwrites a result."""
 import dataclasses
 import json
+import os
 import unittest
 
 from support import FolderTest
@@ -65,6 +66,39 @@ class PlanTest(PlannedTest):
         self.finish(batch)
         other = self.plan(SUITE.replace("hall_os1_16", "hall_os1_16\n    duration_s: 5"))
         self.assertEqual([run.changes for run in other.runs], [("recording",), ("recording",)])
+
+    def test_a_recording_that_has_changed_is_run_again_and_no_other(self):
+        for name in ("a.bag", "b/scans/1.pcd", "b/scans/2.pcd", "c.bag"):
+            self.write(f"data/{name}", "scan")
+        suite = ("sequences:\n  - {name: a, recording: a.bag}\n  - {name: b, recording: b}\n"
+                 "  - {name: c, recording: c.bag}\nconfigurations:\n  - name: plain\n")
+        newer_ns = 1_000_000_000 + (self.folder / "data" / "a.bag").stat().st_mtime_ns
+
+        def touch(name):
+            os.utime(self.folder / "data" / name, ns=(newer_ns, newer_ns))
+
+        def replace(name):  # by one that is as old
+            stat = (self.folder / "data" / name).stat()
+            self.write(f"data/{name}", "another")
+            os.utime(self.folder / "data" / name, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+
+        def add():
+            stat = (self.folder / "data" / "b" / "scans" / "2.pcd").stat()
+            path = self.write("data/b/scans/3.pcd", "")
+            os.utime(path, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+
+        self.finish(self.plan(suite))
+        for change, changed in ((lambda: None, []), (lambda: touch("a.bag"), ["plain/a"]),
+                                (lambda: replace("a.bag"), ["plain/a"]),
+                                (lambda: touch("b/scans/1.pcd"), ["plain/b"]), (add, ["plain/b"]),
+                                (lambda: (self.folder / "data/b/scans/3.pcd").unlink(),
+                                 ["plain/b"])):
+            change()
+            batch = self.plan(suite)
+            self.assertEqual([run.folder for run in batch.runs if run.changes == ("recording",)],
+                             changed)
+            self.assertEqual(self.states(batch).count("done"), 3 - len(changed))
+            self.finish(batch)
 
     def test_a_changed_result_is_moved_and_not_overwritten(self):
         self.finish(self.plan())
