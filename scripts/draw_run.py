@@ -36,7 +36,7 @@ def draw_figures(run, folder, config):
     sigma_m = config.get("expert", {}).get("lost", {}).get("degenerate_sigma_m")
     degenerate = 1.0 / sigma_m**2 if sigma_m else None
     path = theme.save(figures_run.draw_windows(run, degenerate), folder / "windows", dpi=170)[0]
-    said = "Red: flagged windows. " if run.flags else ""
+    said = "Red: flagged. " if run.flags else ""
     figures.append({"path": path, "width": 1080, "caption": f"Over time. {said}Times are means over "
                     "0.5 s."})
     return figures

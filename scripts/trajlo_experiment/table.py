@@ -7,6 +7,7 @@ import numpy as np
 
 from trajlo_batch import results
 from trajlo_batch.places import read_json_if
+from trajlo_report import files
 
 FLAGS = ("no_points", "gap", "reverted", "not_converged", "degenerate", "lost",
          "few_inliers")
@@ -28,7 +29,7 @@ def window_columns(path, names):
 
 def window_values(folder):
     """Statistics of all windows of a run, also of one that crashed."""
-    names = [*COLUMNS, "inlier_share", "rejected_steps", "smallest_eigenvalue", "flag_names"]
+    names = [*COLUMNS, "inlier_share", "rejected_steps", "smallest_eigenvalue"]
     path = folder / "result" / "windows.csv"
     columns = window_columns(path, names) if path.is_file() else {}
     if not columns:
@@ -41,8 +42,15 @@ def window_values(folder):
     values["smallest_eigenvalue_median"] = float(np.median(eigenvalues))
     values["smallest_eigenvalue_min"] = float(eigenvalues.min())
     values["inlier_share"] = float(np.mean(np.array(columns["inlier_share"], dtype=float)))
-    flagged = [text.split("|") for text in columns["flag_names"]]
-    values["share_flagged"] = float(np.mean([names != [""] for names in flagged]))
+    return values
+
+
+def flag_values(folder):
+    """The share of poses with any flag, and with each."""
+    flagged = [text.split("|") for text in files.read_flags(folder / "result")[1]]
+    if not flagged:
+        return {}
+    values = {"share_flagged": float(np.mean([names != [""] for names in flagged]))}
     for flag in FLAGS:
         values[f"share_{flag}"] = float(np.mean([flag in names for names in flagged]))
     return values
@@ -92,7 +100,7 @@ def collect(plan):
             **{key: value for key, value in base.items() if key not in LEFT_OUT},
             "cpu_ms_per_data_second": milliseconds(results.cpu_per_data_second(
                 base["cpu_s"], base["duration_s"])),
-            **window_values(folder), "inlier_share": base["inlier_share"],
+            **window_values(folder), **flag_values(folder), "inlier_share": base["inlier_share"],
             "program": program.get("version"), "program_digest": program.get("digest"),
             "config": f"{run.folder}/result/config.yaml",
             "command": repeat_command(plan, run, number, folder)})

@@ -77,6 +77,20 @@ def read_columns(path):
     return columns
 
 
+def read_flags(result):
+    """Times (s) and flag names ("" is none) of the poses of a run. One that did not end has no
+    flags.csv yet: those of its windows then, among which there is none for a gap."""
+    for name, column in (("flags.csv", "t_s"), ("windows.csv", "end_s")):
+        path = pathlib.Path(result) / name
+        if path.is_file():
+            columns = read_columns(path)
+            times, names = columns.get(column, ()), columns.get("flag_names", ())
+            if isinstance(names, np.ndarray):  # a column of nothing is read as numbers
+                names = [""] * len(times)
+            return times, [text or "" for text in names]
+    return (), []
+
+
 def read_json(path):
     try:
         return json.loads(pathlib.Path(path).read_text())

@@ -18,15 +18,12 @@ class RunData:
     cloud: view_cloud.Cloud  # or None
     frame: Frame
     estimate: files.Estimate  # the evaluation of this run, or None
+    flags: list             # stretches of view_path.flagged_stretches
     missing: list           # a sentence for each file that is not there
 
     @property
     def begin(self):
         return self.times[0]
-
-    @property
-    def flags(self):
-        return view_path.flagged_stretches(self.windows, self.begin)
 
     @property
     def is_evaluated(self):
@@ -74,4 +71,5 @@ def load(result, estimates=(), budget=view_cloud.BUDGET):
     if (result / "windows.csv").is_file():
         windows = files.read_columns(result / "windows.csv")
     return RunData(times, frame.place(positions), frame.turn(rotation_matrices(quaternions)),
-                   windows, cloud, frame, estimate, missing)
+                   windows, cloud, frame, estimate,
+                   view_path.flagged_stretches(*files.read_flags(result), times[0]), missing)

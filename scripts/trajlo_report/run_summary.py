@@ -84,16 +84,20 @@ def of_windows(run_json):
     windows = run_json.get("windows", {})
     if not windows.get("count"):
         return []
-    facts = [Fact(f"{100 * windows['inlier_share']:.0f} %",
-                  "of the points found a plane in the map")]
-    flags = {name.replace("_", " "): count for name, count in windows.get("flagged", {}).items()
-             if count}
-    if flags:
-        said = ", ".join(f"{name} {count}" for name, count in flags.items())
-        facts.append(Fact(f"{sum(flags.values())}", f"flags in {windows['count']} windows: {said}"))
-    else:
-        facts.append(Fact("none", f"of {windows['count']} windows is flagged"))
-    return facts
+    return [Fact(f"{100 * windows['inlier_share']:.0f} %", "of the points found a plane in the map")]
+
+
+def of_flags(run_json):
+    """Of the poses: a gap has no window."""
+    result = run_json.get("result", {})
+    if not run_json.get("windows", {}).get("count") or "poses_flagged" not in result:
+        return []
+    said = ", ".join(f"{name.replace('_', ' ')} {total['poses']} ({total['seconds']:.2f} s)"
+                     for name, total in result["flagged"].items() if total["poses"])
+    if not said:
+        return [Fact("none", "of the poses is flagged")]
+    return [Fact(str(result["poses_flagged"]),
+                 f"{'pose is' if result['poses_flagged'] == 1 else 'poses are'} flagged: {said}")]
 
 
 def of_resources(run_json):
@@ -108,4 +112,4 @@ def of_resources(run_json):
 def facts(run_json, run):
     """The numbers that people ask for first; those that are not known are left out."""
     return [*of_input(run_json), *of_path(run_json, run), *of_error(run), *of_windows(run_json),
-            *of_resources(run_json)]
+            *of_flags(run_json), *of_resources(run_json)]

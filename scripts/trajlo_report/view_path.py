@@ -84,20 +84,15 @@ def quantities(times, positions, windows, estimate):
     return [item for item in found if np.isfinite(item.values).any()]
 
 
-def flagged_stretches(windows, begin_s):
-    """[{from, to, names}], seconds after the begin, of windows that say something is not right.
+def flagged_stretches(times, names, begin_s):
+    """[{from, to, names}], seconds after the begin, of poses that something speaks against.
 
-    A window speaks for its newest segment: the time since the window before."""
-    ends = windows.get("end_s", ())
-    names = windows.get("flag_names", [""] * len(ends))
+    The flags of a pose are those of the time since the pose before."""
     stretches = []
-    if not len(ends) or isinstance(names, np.ndarray):  # a column of nothing is read as numbers
-        return stretches
     for index, flags in enumerate(names):
         if not flags:
             continue
-        begin = ends[index - 1] if index else windows["begin_s"][0]
-        begin, end = float(begin - begin_s), float(ends[index] - begin_s)
+        begin, end = float(times[max(index - 1, 0)] - begin_s), float(times[index] - begin_s)
         flags = flags.replace("_", " ").split("|")
         last = stretches[-1] if stretches else None
         if last and last["names"] == flags and begin - last["to"] < 1e-6:

@@ -11,7 +11,13 @@ from trajlo_experiment.points import make_study, save_design
 
 WINDOWS = """points,inlier_share,rounds,iterations,rejected_steps,smallest_eigenvalue,flag_names
 100,0.9,2,3,1,0.2,
-50,0.5,4,5,2,0.1,gap|degenerate
+50,0.5,4,5,2,0.1,degenerate
+"""
+FLAGS = """t_s,flags,flag_names
+1.0,0,
+1.1,0,
+4.0,2,gap
+4.1,16,degenerate
 """
 
 
@@ -55,3 +61,4 @@ class PretendedTest(FolderTest):
                 f"--output={result.parent / 'evaluation'}"]}))
         self.write(f"{folder}/evaluation/evaluation.json", json.dumps(evaluation(error)))
         self.write(f"{folder}/result/windows.csv", WINDOWS)
+        self.write(f"{folder}/result/flags.csv", FLAGS)

@@ -37,18 +37,29 @@ def write_windows(path, times, flags):
     lines = ["index,begin_s,end_s,points,inlier_share,agreement,smallest_eigenvalue,segment_ms,"
              "associate_ms,solve_ms,marginalize_ms,map_ms,flags,flag_names"]
     for i in range(1, len(times)):
+        if flags.get(i) == "gap":  # a gap has no window
+            continue
         lines.append(f"{i},{BEGIN_S + times[max(i - 4, 0)]:.9f},{BEGIN_S + times[i]:.9f},900,0.9,"
                      f"0.97,0.05,1,2,3,0,1,{int(i in flags)},{flags.get(i, '')}")
     path.write_text("\n".join(lines) + "\n")
+
+
+def write_flags(path, times, flags):
+    lines = [f"{BEGIN_S + t:.9f},{int(i in flags)},{flags.get(i, '')}" for i, t in enumerate(times)]
+    path.write_text("\n".join(["t_s,flags,flag_names", *lines]) + "\n")
 
 
 def run_json(seconds):
     return {"exit": {"code": 0, "reason": "ok", "message": ""},
             "input": {"paths": ["/somewhere/office_os0_64"], "understood_as": ["a folder"],
                       "scans": {"listed": 20, "read": 19, "damaged": 1, "skipped": 1}},
-            "result": {"duration_s": seconds, "path_length_m": 12.34, "distance_to_start_m": 0.5},
+            "result": {"duration_s": seconds, "path_length_m": 12.34, "distance_to_start_m": 0.5,
+                       "poses_flagged": 3,
+                       "flagged": {"gap": {"poses": 1, "seconds": 0.1},
+                                   "lost": {"poses": 0, "seconds": 0.0},
+                                   "not_converged": {"poses": 2, "seconds": 0.06}}},
             "windows": {"count": 99, "inlier_share": 0.9,
-                        "flagged": {"gap": 1, "not_converged": 2, "lost": 0}},
+                        "flagged": {"gap": 0, "not_converged": 2, "lost": 0}},
             "warnings": ["a scan is missing"],
             "resources": {"cpu_s": 3.0, "peak_memory_mb": 80.0}}
 
@@ -70,6 +81,7 @@ def write_result(folder, seconds=10.0, flags=None, scans=True, map_points=4000,
             **dict(zip("xyz", points.T)), "intensity": random.uniform(5, 200, len(points)),
             "t_s": np.repeat(moments, points_per_moment)}, f"comment begin_s {BEGIN_S:.9f}")
     write_windows(folder / "windows.csv", times, flags or {})
+    write_flags(folder / "flags.csv", times, flags or {})
     (folder / "run.json").write_text(json.dumps(run_json(seconds)))
     (folder / "config.yaml").write_text("expert:\n  lost:\n    degenerate_sigma_m: 0.1\n")
     return folder

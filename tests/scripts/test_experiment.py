@@ -141,7 +141,7 @@ class TableTest(PretendedTest):
                           row["rejected_steps"]), (3.0, 4.0, 3))
         self.assertAlmostEqual(row["smallest_eigenvalue_median"], 0.15)
         self.assertEqual((row["smallest_eigenvalue_min"], row["share_flagged"], row["share_gap"],
-                          row["share_lost"]), (0.1, 0.5, 0.5, 0.0))
+                          row["share_lost"]), (0.1, 0.5, 0.25, 0.0))
         self.assertEqual(row["cpu_ms_per_data_second"], 500.0)
         self.assertIn("trajlo_run 0.1.0", row["program"])
 

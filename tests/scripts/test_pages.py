@@ -110,7 +110,8 @@ class RunPageTest(FolderTest):
         self.assert_self_contained(self.folder / "run.html")
         top = text[text.index("<h1>"):text.index("<h2>")]
         for said in ("Office, OS0-64", "The run ended well.", "10.0 s", "19 of 20 scans",
-                     "12.3 m", "0.30 s", "gap 1, not converged 2", "Warning: a scan is missing"):
+                     "12.3 m", "0.30 s", "<dt>3</dt>",
+                     "flagged: gap 1 (0.10 s), not converged 2 (0.06 s)", "Warning: a scan is missing"):
             self.assertIn(said, top)
         self.assertNotIn("resources.cpu_s", top)
         self.assertIn("resources.cpu_s", text)  # below

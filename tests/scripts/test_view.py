@@ -103,14 +103,23 @@ class PathTest(FolderTest):
         line = np.stack([1.5 * times, 0 * times, 2 * times], axis=1) + noise
         np.testing.assert_allclose(view_path.speeds(times, line), 2.5, atol=0.15)
 
-    def test_flagged_windows_in_a_row_are_one_stretch_from_the_window_before(self):
-        result = write_result(self.folder, flags={30: "not_converged", 31: "not_converged",
-                                                  60: "gap|degenerate"})
-        found = view_path.flagged_stretches(files.read_columns(result / "windows.csv"), BEGIN_S)
+    def test_flagged_poses_in_a_row_are_one_stretch_from_the_pose_before(self):
+        result = write_result(self.folder, flags={
+            30: "not_converged", 31: "not_converged", 45: "gap", 60: "no_points|degenerate"})
+        found = run_data.load(result).flags
         self.assertEqual([stretch["names"] for stretch in found],
-                         [["not converged"], ["gap", "degenerate"]])
+                         [["not converged"], ["gap"], ["no points", "degenerate"]])
         np.testing.assert_allclose([[item["from"], item["to"]] for item in found],
-                                   [[2.9, 3.1], [5.9, 6.0]], atol=1e-6)
+                                   [[2.9, 3.1], [4.4, 4.5], [5.9, 6.0]], atol=1e-6)
+
+    def test_a_run_that_did_not_end_has_the_flags_of_its_windows(self):
+        result = write_result(self.folder, flags={30: "not_converged", 45: "gap"})
+        (result / "flags.csv").unlink()
+        text = (result / "windows.csv").read_text()
+        (result / "windows.csv").write_text(f"{text}101,17000")  # cut off
+        found, = run_data.load(result).flags
+        self.assertEqual(found["names"], ["not converged"])
+        self.assertEqual(run_data.load(write_result(self.folder)).flags, [])
 
     def test_where_the_truth_has_a_gap_no_error_is_known(self):
         found = view_path.interpolated(np.array([0.0, 5.0, 10.0]), np.array([0, 0.1, 9.9, 10]),
@@ -189,7 +198,7 @@ class ViewTest(FolderTest):
     def test_a_name_cannot_end_the_script(self):
         result = write_result(self.folder)
         run = run_data.load(result)
-        run.windows["flag_names"] = ["</script>"] * len(run.windows["end_s"])
+        run.flags = [{"from": 0.0, "to": 1.0, "names": ["</script>"]}]
         self.assertNotIn("</script", view.make(run)[0])
 
     def test_a_million_points_without_any_order_can_be_mailed(self):
