@@ -103,13 +103,19 @@ def extract_poses(bag, topic, place, programs):
     """Writes the poses of a topic as TUM, unless the file is there."""
     if place.exists():
         return
-    command = [str(programs / "trajlo_convert"), str(bag), str(place), f"--poses={topic}",
-               "--quiet"]
+    # What a damaged bag or an interruption leaves must not be taken for whole the next time.
+    beside = place.with_name(f".part.{place.name}")
+    command = [str(programs / "trajlo_convert"), str(bag), str(beside), f"--poses={topic}",
+               "--quiet", "--overwrite"]
     process = subprocess.run(command, capture_output=True, text=True, check=False)
-    if process.returncode == 5:
-        raise Unwritable(process.stderr.strip())
-    if process.returncode != 0:
-        raise Unfit(process.stderr.strip())
+    try:
+        if process.returncode == 0:
+            beside.rename(place)
+            return
+        beside.unlink(missing_ok=True)
+    except OSError as error:
+        raise Unwritable(f"{place}: {error.strerror}") from error
+    raise (Unwritable if process.returncode == 5 else Unfit)(process.stderr.strip())
 
 
 def report(word, text):

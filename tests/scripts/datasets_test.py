@@ -153,6 +153,23 @@ class DatasetsTest(unittest.TestCase):
         self.assertIn("has no topic /os1_cloud_node2/points", text)
         self.assertIn("eee_03.bag is damaged", text)
 
+    def test_a_truth_that_was_not_read_to_its_end_is_unfit_every_time(self):
+        self.write_bag("eee_01/eee_01.bag", [
+            ("/os1_cloud_node1/points", "sensor_msgs/PointCloud2"),
+            ("/os1_cloud_node2/points", "sensor_msgs/PointCloud2"),
+            ("/leica/pose/relative", "geometry_msgs/PoseStamped")])
+        convert = self.folder / "build" / "apps" / "trajlo_convert"
+        convert.write_text(PRETENDED_CONVERT + "echo 'the bag is cut' >&2\nexit 3\n")
+        for _ in range(2):
+            _, text = self.call("ntu_viral", self.downloads, "--into", self.data)
+            self.assertIn("UNFIT   ntu_viral/eee_01/eee_01.bag: the bag is cut", text)
+            self.assertEqual([path.name for path in (self.data / "ntu_viral/eee_01").iterdir()],
+                             ["eee_01.bag"])
+        convert.write_text(PRETENDED_CONVERT)
+        _, text = self.call("ntu_viral", self.downloads, "--into", self.data)
+        self.assertIn("ok      ntu_viral/eee_01/eee_01.bag", text)
+        self.assertTrue((self.data / "ntu_viral/eee_01/truth.tum").is_file())
+
     def test_something_else_in_the_place_is_left_alone(self):
         self.write("swing.bag")
         self.write_bag("swing.bag", [("/livox/lidar", "livox_ros_driver/CustomMsg")])
