@@ -47,8 +47,10 @@ def write_evaluation(folder, noise_m, diverged=(), with_rotation=True, poses=400
             "path_length_m": float(np.linalg.norm(np.diff(truth, axis=0), axis=1).sum()),
             "ate": {"translation_m": statistics(error),
                     "rotation_deg": statistics(rotation) if with_rotation else None},
-            "rpe": [{"delta": 1.0, "unit": "m", "pairs": 60, "translation_m": statistics(error),
-                     "rotation_deg": statistics(rotation) if with_rotation else None}],
+            "rpe": [{"delta": 1.0, "unit": "m", "pairs": 60,
+                     "translation_m": statistics(error) if with_rotation else None,
+                     "rotation_deg": statistics(rotation) if with_rotation else None,
+                     "point_distance_m": statistics(0.5 * error)}],
             "kitti": None, "time_offset_s": 0.0,
             "alignment": {"kind": "se3", "T": np.eye(3, 4).tolist(), "scale": 1.0}})
     document = {"estimates": estimates, "truth": {"file": "truth.tum"},

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Figures are drawn of everything that an evaluation may hold, and pages hold all they show."""
 import json
+import re
 import subprocess
 import unittest
 import unittest.mock
@@ -66,6 +67,22 @@ class EvaluationPageTest(FolderTest):
         self.assertFalse(evaluated.has_rotation(estimates[0]))
         figure = figures_errors.draw_over_time(estimates)
         self.assertEqual(len(figure.axes), 4)
+
+    def relative_errors(self):
+        """The cells of the table, and what stands below it."""
+        text = self.draw().read_text()
+        text = text[text.index("<h3>Relative error"):text.index("<h2>Figures")]
+        return re.findall(r"<td>(.*?)</td>", text), "distance between two poses" in text
+
+    def test_relative_errors_are_those_of_distances_where_the_truth_has_only_positions(self):
+        document = write_evaluation(self.folder, {"one": 0.01}, with_rotation=False)
+        relative = files.read_json(document / "evaluation.json")["estimates"][0]["rpe"][0]
+        shown = [page.number(relative["point_distance_m"][name]) for name in ("rmse", "mean", "max")]
+        self.assertEqual(self.relative_errors(), (["1.0 m *", "60", *shown, "–", "–", "–"], True))
+        write_evaluation(self.folder, {"one": 0.01})
+        cells, has_note = self.relative_errors()
+        self.assertEqual((cells[0], has_note), ("1.0 m", False))
+        self.assertNotIn("–", cells)
 
     def test_an_estimate_without_pairs_is_named_and_not_drawn(self):
         write_evaluation(self.folder, {"one": 0.01, "none": 0.01})
