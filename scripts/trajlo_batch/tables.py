@@ -64,8 +64,10 @@ def result_cell(rows, suite, decimals):
     if not values and not failed:
         pending = any(row["result"] in (results.UNFINISHED, results.NOT_ASKED) for row in rows)
         return Cell(PENDING if pending else ABSENT, note=note)
+    ended = len(values) + failed
+    share = f" ({ended} of {len(rows)})" if ended < len(rows) else ""
     if not values:
-        return Cell(X, note=note, folder=folder)
+        return Cell(f"{X}{share}", note=note, folder=folder)
     value = {"median": statistics.median, "mean": statistics.fmean, "max": max}[
         suite.over_seeds](values)
     text = f"{value:.{decimals}f}"
@@ -74,8 +76,9 @@ def result_cell(rows, suite, decimals):
         note = f"{spread}; {note}" if note else spread
     if failed:
         text += f" ({failed} {X})"
-    # One that fails on a seed is not the best, however good the others are.
-    return Cell(text, math.nan if failed else value, note=note, folder=folder)
+    # One that fails on a seed is not the best, however good the others are; of one that has not
+    # ended on all of them nobody knows yet.
+    return Cell(text + share, math.nan if failed or share else value, note=note, folder=folder)
 
 
 def average_cell(cells, decimals):
@@ -153,7 +156,7 @@ def suite_table(suite, rows, marked=True):
     notes = [f"{group}: degenerate by construction ({why})" for group, why in degenerate.items()]
     if len(seeds) > 1:
         notes.append(f"Each value is the {suite.over_seeds} of {len(seeds)} seeds; (1 x) says that "
-                     "one of them failed.")
+                     f"one of them failed, (1 of {len(seeds)}) that only one has ended.")
     columns = [f"{group} †" if group in degenerate else group for group in groups]
     return Table(f"{suite.title}: {METRICS.get(suite.metric, suite.metric)}", columns, lines, notes,
                  transposed=suite.rows == "sequences")

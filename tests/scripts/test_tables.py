@@ -129,6 +129,24 @@ class SuiteTableTest(unittest.TestCase):
         self.assertEqual((ours.text, ours.best), ("0.100 (1 x)", False))
         self.assertTrue(theirs.best)
 
+    def test_a_seed_that_has_not_ended_is_counted_and_no_mark_is_given(self):
+        suite = make_suite(configurations=("ours", "theirs"))
+        rows = [row("ours", "eee_01", 0.1, sequence="a"),
+                row("ours", "eee_01", None, "not finished", sequence="b"),
+                row("ours", "eee_01", None, "not asked for", sequence="c"),
+                row("theirs", "eee_01", 0.2)]
+        table = tables.suite_table(suite, rows)
+        for text in (table_formats.to_markdown(table), table_formats.to_latex(table),
+                     table_formats.to_csv(table)):
+            self.assertIn("0.100 (1 of 3)", text)
+        ours, theirs = (line.cells[0] for line in table.lines)
+        self.assertEqual((ours.best, theirs.best), (False, True))
+        rows[1]["result"] = "x"
+        cell = tables.suite_table(suite, rows).lines[0].cells[0]
+        self.assertEqual((cell.text, cell.best), ("0.100 (1 x) (2 of 3)", False))
+        rows[0]["result"] = "not finished"
+        self.assertEqual(tables.suite_table(suite, rows).lines[0].cells[0].text, "x (1 of 3)")
+
     def test_an_unfinished_run_is_no_failure(self):
         table = tables.suite_table(make_suite(), [row("ours", "eee_01", None, "not finished")])
         self.assertEqual(table.lines[0].cells[0].text, "…")
