@@ -6,6 +6,7 @@
 
 #include "apps/convert/convert_scans.h"
 #include "apps/convert/export_result.h"
+#include "apps/convert/protect_input.h"
 #include "apps/print_warnings.h"
 #include "apps/reading_progress.h"
 #include "core/export/run_result.h"
@@ -14,6 +15,7 @@
 #include "core/io/conversion/message_copy.h"
 #include "core/io/errors.h"
 #include "core/io/recording/open_clouds.h"
+#include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_writer.h"
 
 namespace trajlo {
@@ -111,6 +113,7 @@ ExitCode WriteScans(const ConvertRequest& request, const std::atomic<bool>& stop
 
 ExitCode Convert(const ConvertRequest& request, const std::atomic<bool>& stop) {
   if (IsRunResult(request.input)) return ExportResult(request, stop);
+  ProtectInput(FilesOfRecording(InputPaths(request.input), request.recording), request.output);
   if (!request.poses.empty()) return WritePoses(request);
   const bool copy = request.WritesBag() && !request.layout && HoldsMessages(request.input);
   if (!copy) return WriteScans(request, stop);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/convert/protect_input.h"
 #include "apps/print_warnings.h"
 #include "apps/reading_progress.h"
 #include "core/export/map_file.h"
@@ -23,6 +24,7 @@
 #include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_writer.h"
+#include "core/report/result_folder.h"
 
 namespace trajlo {
 namespace {
@@ -32,10 +34,14 @@ namespace fs = std::filesystem;
 constexpr char kCommand[] = "trajlo_convert";
 constexpr int kAllCores = 0;
 
-/// Where the recording is: as the run's command line named it, seen from here.
+/// Where the recording should be: as the run's command line named it, seen from here.
+std::vector<std::string> InputsOf(const ConvertRequest& request, const RunResult& result) {
+  return request.exports.recording.empty() ? result.inputs : InputPaths(request.exports.recording);
+}
+
+/// The same, where it is.
 std::vector<std::string> RecordingOf(const ConvertRequest& request, const RunResult& result) {
-  const std::vector<std::string> inputs =
-      request.exports.recording.empty() ? result.inputs : InputPaths(request.exports.recording);
+  const std::vector<std::string> inputs = InputsOf(request, result);
   for (const std::string& input : inputs) {
     std::error_code error;
     if (fs::exists(input, error)) continue;
@@ -47,6 +53,15 @@ std::vector<std::string> RecordingOf(const ConvertRequest& request, const RunRes
 
 std::size_t LidarsOf(const std::vector<std::string>& inputs, const RunResult& result) {
   return std::max<std::size_t>(1, LidarNames(inputs, result.config.input).size());
+}
+
+/// Neither the result nor its recording is to be lost, whether or not points are wanted.
+void ProtectResult(const ConvertRequest& request, const RunResult& result) {
+  std::vector<fs::path> read = FilesOfRecording(InputsOf(request, result), result.config.input);
+  const ResultFolder files(request.input);
+  read.insert(read.end(), {files.trajectory(), files.summary(), files.windows(), files.config(),
+                           files.covariance()});
+  ProtectInput(read, request.output);
 }
 
 void WarnOfPoses(const RunResult& result) {
@@ -239,6 +254,7 @@ ExitCode WriteBag(const ConvertRequest& request, const RunResult& result,
 
 ExitCode ExportResult(const ConvertRequest& request, const std::atomic<bool>& stop) {
   const RunResult result = ReadRunResult(request.input, {request.exports.keep_lost});
+  ProtectResult(request, result);
   WarnOfPoses(result);
   const fs::path extension = request.output.extension();
   if (extension == ".tum" || extension == ".txt") return WritePoseFile(request, result);

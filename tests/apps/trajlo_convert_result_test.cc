@@ -195,6 +195,27 @@ TEST_F(TrajloConvertResult, MistakesAreNamed) {
   EXPECT_EQ(Convert({Path("result"), "/dev/null/x.mcap"}).exit_code, 5);
 }
 
+TEST_F(TrajloConvertResult, NeitherTheResultNorItsRecordingIsEverReplaced) {
+  ASSERT_EQ(Convert({Path("room"), Path("room.bag")}).exit_code, 0);
+  const std::string bag = ReadFile(Path("room.bag"));
+  const std::string poses = ReadFile(Path("result/trajectory.tum"));
+  const std::vector<std::vector<std::string>> mistakes = {
+      {Path("room")},
+      {Path("result/trajectory.tum")},
+      {Path("room.bag"), "--recording=" + Path("room.bag")},
+      {Path("room.bag"), "--recording=" + Path("room.bag"), "--noscans", "--nomap"},
+  };
+  for (std::vector<std::string> arguments : mistakes) {
+    arguments.insert(arguments.begin(), {Path("result"), "--overwrite"});
+    const Outcome outcome = Convert(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << arguments[2];
+    EXPECT_THAT(outcome.err, HasSubstr("choose another output"));
+  }
+  EXPECT_TRUE(fs::exists(Path("room/scans/000011.pcd")));
+  EXPECT_EQ(ReadFile(Path("room.bag")), bag);
+  EXPECT_EQ(ReadFile(Path("result/trajectory.tum")), poses);
+}
+
 TEST_F(TrajloConvertResult, AnotherRecordingThanThatOfTheRunIsNoticed) {
   RoomRecording shorter;
   shorter.scans = 9;

@@ -12,6 +12,7 @@ namespace trajlo::testing {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -137,6 +138,46 @@ TEST_F(TrajloConvert, AnEarlierResultIsKeptUnlessAskedOtherwise) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "scans" / "000011.pcd"));
   EXPECT_EQ(Convert({Path("room"), Path("room"), "--overwrite"}).exit_code, 1);
   EXPECT_EQ(ReadAll(Path("room")).size(), 12u);
+}
+
+TEST_F(TrajloConvert, WhatIsReadIsNeverReplaced) {
+  RoomRecording().Write(folder_ / "other");
+  RoomRecording().Write(folder_ / "rig" / "lidar0");
+  RoomRecording().Write(folder_ / "rig" / "lidar1");
+  std::filesystem::create_directory_symlink(folder_ / "room", folder_ / "link");
+  std::filesystem::create_directory(folder_ / "bags");
+  ASSERT_EQ(Convert({Path("room"), Path("bags/a.bag")}).exit_code, 0);
+  std::filesystem::copy(folder_ / "bags/a.bag", folder_ / "bags/b.bag.part");
+  const std::string bag = ReadFile(folder_ / "bags/a.bag");
+  const std::vector<std::pair<std::string, std::string>> mistakes = {
+      {Path("room/scans"), Path("room")},
+      {Path("room") + "," + Path("other"), Path("room")},
+      {Path("other") + "," + Path("room"), Path("room/.")},
+      {Path("room"), Path("link")},
+      {Path("link/scans"), Path("room")},
+      {Path("rig"), Path("rig/lidar1")},
+      {Path("rig/lidar0"), Path("rig")},
+      {Path("bags/a.bag") + "," + Path("other"), Path("bags/a.bag")},
+      {Path("bags"), Path("bags/a.bag")},
+      {Path("bags/b.bag.part"), Path("bags/b.bag")},
+  };
+  for (const auto& [input, output] : mistakes) {
+    const Outcome outcome = Convert({input, output, "--overwrite"});
+    EXPECT_EQ(outcome.exit_code, 1) << input << " " << output;
+    EXPECT_THAT(outcome.err, AnyOf(HasSubstr("choose another output"), HasSubstr("the same")));
+  }
+  for (const char* whole : {"room", "other", "rig/lidar0", "rig/lidar1"}) {
+    EXPECT_EQ(ReadAll(Path(whole)).size(), 12u) << whole;
+  }
+  EXPECT_EQ(ReadFile(folder_ / "bags/a.bag"), bag);
+  EXPECT_EQ(ReadFile(folder_ / "bags/b.bag.part"), bag);
+}
+
+TEST_F(TrajloConvert, WhatLiesBesideTheInputMayBeReplaced) {
+  ASSERT_EQ(Convert({Path("room"), Path("room/part")}).exit_code, 0);
+  EXPECT_EQ(Convert({Path("room/scans"), Path("room/part"), "--overwrite"}).exit_code, 0);
+  ASSERT_EQ(Convert({Path("room/scans"), Path("room/a.bag")}).exit_code, 0);
+  EXPECT_EQ(Convert({Path("room/scans"), Path("room/a.bag"), "--overwrite"}).exit_code, 0);
 }
 
 TEST_F(TrajloConvert, ADamagedRecordingIsConvertedAsFarAsItGoes) {

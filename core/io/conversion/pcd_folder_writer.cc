@@ -40,13 +40,20 @@ std::string Lines(const std::vector<std::int64_t>& times_ns) {
 
 }  // namespace
 
+std::vector<fs::path> ScanPaths(const fs::path& folder) {
+  std::vector<fs::path> paths = {folder / "scans", folder / "timestamps.txt",
+                                 folder / "record_times.txt"};
+  for (int id = 0;; ++id) {
+    const fs::path lidar = folder / ("lidar" + std::to_string(id));
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(lidar, error))) return paths;
+    paths.push_back(lidar);
+  }
+}
+
 void RemoveScans(const fs::path& folder) {
   std::error_code error;
-  fs::remove_all(folder / "scans", error);
-  fs::remove(folder / "timestamps.txt", error);
-  fs::remove(folder / "record_times.txt", error);
-  for (int id = 0; fs::remove_all(folder / ("lidar" + std::to_string(id)), error) > 0; ++id) {
-  }
+  for (const fs::path& path : ScanPaths(folder)) fs::remove_all(path, error);
 }
 
 void PrepareScanFolder(const fs::path& folder, IfExists if_exists) {

@@ -31,7 +31,11 @@ class PcdFolderWriter {
   std::vector<std::int64_t> stamps_ns_, recorded_ns_;
 };
 
-/// Removes what earlier PcdFolderWriters left in a folder and in its subfolders lidar0, lidar1, ...
+/// Where PcdFolderWriters leave something in a folder: its scans and their times, and its
+/// subfolders lidar0, lidar1, ... as far as they are there.
+std::vector<std::filesystem::path> ScanPaths(const std::filesystem::path& folder);
+
+/// Removes the ScanPaths() of a folder.
 void RemoveScans(const std::filesystem::path& folder);
 
 /// Makes sure that nothing is lost, and that no scan of an older recording stays behind: a folder
