@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,25 @@ std::vector<std::string> LidarTopics(const std::vector<std::string>& inputs,
   return lidars;
 }
 
+/// A name for each LiDAR, the one that it had where that is possible.
+std::vector<std::string> OwnTopics(CloudLayout layout, std::vector<std::string> topics) {
+  const std::size_t count = topics.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    // Folders have no topics, and those of captures are no names for ROS.
+    const bool is_name = !topics[i].empty() && topics[i].front() == '/';
+    if (!is_name) topics[i] = TopicOf(layout, i, count);
+  }
+  // LiDARs that share a name would be one for every reader.
+  if (std::set<std::string>(topics.begin(), topics.end()).size() == count) return topics;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string own = TopicOf(layout, i, count);
+    std::fprintf(stderr, "trajlo_convert: lidar %zu becomes %s: several LiDARs have one name\n", i,
+                 own.c_str());
+    topics[i] = own;
+  }
+  return topics;
+}
+
 /// Takes the scans of one kind of output.
 class Output {
  public:
@@ -58,14 +78,8 @@ class BagOutput : public Output {
  public:
   BagOutput(const ConvertRequest& request, std::vector<std::string> topics)
       : layout_(request.layout.value_or(CloudLayout::kOuster)),
-        topics_(std::move(topics)),
-        bag_(OpenBag(request.output, request.compression, request.WhatIfExists())) {
-    for (std::size_t i = 0; i < topics_.size(); ++i) {
-      // Folders have no topics, and those of captures are no names for ROS.
-      const bool is_name = !topics_[i].empty() && topics_[i].front() == '/';
-      if (!is_name) topics_[i] = TopicOf(layout_, i, topics_.size());
-    }
-  }
+        topics_(OwnTopics(layout_, std::move(topics))),
+        bag_(OpenBag(request.output, request.compression, request.WhatIfExists())) {}
 
   void Write(const LidarScan& scan, std::int64_t recorded_ns) override {
     const std::int64_t start_ns = SweepStartOf(scan);

@@ -2,6 +2,7 @@
 // The command as a user calls it.
 #include <gmock/gmock.h>
 
+#include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_reader.h"
 #include "tests/apps/command_testing.h"
@@ -15,6 +16,7 @@ using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 
 Outcome Convert(const std::vector<std::string>& arguments) {
   return CallProgram(TRAJLO_CONVERT, arguments);
@@ -114,6 +116,26 @@ TEST_F(TrajloConvert, SeveralLidarsGetFoldersOfTheirOwn) {
   ASSERT_EQ(Convert({Path("rig.bag"), Path("one"), "--topics=/os1_cloud_node2/points"}).exit_code,
             0);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "one" / "scans" / "000011.pcd"));
+}
+
+TEST_F(TrajloConvert, LidarsOfOneNameGetNamesOfTheirOwn) {
+  ASSERT_EQ(Convert({Path("room"), Path("a.bag")}).exit_code, 0);
+  ASSERT_EQ(Convert({Path("room"), Path("b.bag")}).exit_code, 0);
+  const Outcome outcome = Convert({Path("a.bag") + "," + Path("b.bag"), Path("both.mcap")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("lidar 1 becomes /os1_cloud_node2/points"));
+  const auto both = OpenMessages(Path("both.mcap"));
+  std::vector<std::string> topics;
+  for (const Topic& topic : both->topics()) topics.push_back(topic.name);
+  EXPECT_THAT(topics, UnorderedElementsAre("/os1_cloud_node1/points", "/os1_cloud_node2/points"));
+  // A folder's name must not be that of a bag either.
+  ASSERT_EQ(
+      Convert({Path("both.mcap"), Path("one.bag"), "--topics=/os1_cloud_node1/points"}).exit_code,
+      0);
+  ASSERT_EQ(Convert({Path("one.bag") + "," + Path("room"), Path("c.bag")}).exit_code, 0);
+  EXPECT_EQ(OpenMessages(Path("c.bag"))->topics().size(), 2u);
+  ASSERT_EQ(Convert({Path("room") + "," + Path("one.bag"), Path("d.bag")}).exit_code, 0);
+  EXPECT_EQ(OpenMessages(Path("d.bag"))->topics().size(), 2u);
 }
 
 TEST_F(TrajloConvert, AnExcerptHasTheScansOfItsTime) {
