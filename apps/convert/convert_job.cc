@@ -25,25 +25,38 @@ constexpr char kCommand[] = "trajlo_convert";
 
 std::int64_t ToNs(double seconds) { return std::llround(1e9 * seconds); }
 
-ExitCode WritePoses(const ConvertRequest& request) {
-  const ExtractedPoses extracted = ExtractPoses(request.input, request.poses);
-  const std::int64_t begin_ns = extracted.poses.front().t_ns + ToNs(request.recording.start_s);
+/// The poses of the excerpt; throws InputError if there are none.
+std::vector<StampedPose> WantedPoses(const ConvertRequest& request,
+                                     const std::vector<StampedPose>& poses) {
+  const std::int64_t begin_ns = poses.front().t_ns + ToNs(request.recording.start_s);
   const std::int64_t duration_ns = ToNs(request.recording.duration_s);
-  TumWriter tum(request.output, request.WhatIfExists());
-  std::size_t written = 0;
-  for (const StampedPose& pose : extracted.poses) {
+  std::vector<StampedPose> wanted;
+  for (const StampedPose& pose : poses) {
     if (pose.t_ns < begin_ns) continue;
     if (duration_ns > 0 && pose.t_ns >= begin_ns + duration_ns) continue;
-    tum.Append(pose.t_ns, pose.T_world_body);
-    ++written;
+    wanted.push_back(pose);
   }
+  if (wanted.empty()) {
+    throw InputError(request.input,
+                     "none of the " + std::to_string(poses.size()) + " poses of " + request.poses +
+                         " lies in what is to be converted",
+                     "Check --start_s and --duration_s with trajlo_info.");
+  }
+  return wanted;
+}
+
+ExitCode WritePoses(const ConvertRequest& request) {
+  const ExtractedPoses extracted = ExtractPoses(request.input, request.poses);
+  const std::vector<StampedPose> wanted = WantedPoses(request, extracted.poses);
+  TumWriter tum(request.output, request.WhatIfExists());
+  for (const StampedPose& pose : wanted) tum.Append(pose.t_ns, pose.T_world_body);
   tum.Flush();
   tum.Close();
   PrintWarnings(kCommand, extracted.report.warnings);
   if (extracted.unreadable > 0) {
     std::fprintf(stderr, "trajlo_convert: %zu messages hold no pose\n", extracted.unreadable);
   }
-  if (!request.quiet) std::printf("%zu poses in %s\n", written, request.output.c_str());
+  if (!request.quiet) std::printf("%zu poses in %s\n", wanted.size(), request.output.c_str());
   const bool partial = extracted.report.damaged || extracted.unreadable > 0;
   return partial ? ExitCode::kPartialInput : ExitCode::kOk;
 }

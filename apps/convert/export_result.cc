@@ -150,18 +150,18 @@ ExitCode WritePoseFile(const ConvertRequest& request, const RunResult& result) {
     tum.Flush();
     tum.Close();
   } else {
-    // KITTI's format has no times: they stand beside it.
+    // KITTI's format has no times: they stand beside it. Both files are there, or neither.
     const fs::path times_path =
         request.output.parent_path() / (request.output.stem().string() + "_times.txt");
-    std::string times;
+    AtomicFile times(times_path, request.WhatIfExists());
     KittiWriter kitti(request.output, request.WhatIfExists());
     for (const ControlPose& pose : poses) {
       kitti.Append(pose.T_world_body);
-      times += FormatSeconds(pose.t_ns) + "\n";
+      times.Write(FormatSeconds(pose.t_ns) + "\n");
     }
-    WriteTextFile(times_path, times, request.WhatIfExists());
     kitti.Flush();
     kitti.Close();
+    times.Commit();
     if (!request.quiet) std::printf("times in %s\n", times_path.c_str());
   }
   if (!request.quiet) std::printf("%zu poses in %s\n", poses.size(), request.output.c_str());

@@ -193,6 +193,13 @@ TEST_F(TrajloConvertResult, MistakesAreNamed) {
   EXPECT_EQ(Convert({Path("result"), Path("there.mcap")}).exit_code, 5);
   EXPECT_EQ(ReadFile(Path("there.mcap")), "precious");
   EXPECT_EQ(Convert({Path("result"), "/dev/null/x.mcap"}).exit_code, 5);
+  for (const char* there : {"kitti.txt", "kitti_times.txt"}) {
+    WriteFile(Path(there), "precious");
+    EXPECT_EQ(Convert({Path("result"), Path("kitti.txt")}).exit_code, 5) << there;
+    EXPECT_EQ(ReadFile(Path(there)), "precious");
+    fs::remove(Path(there));
+    EXPECT_FALSE(fs::exists(Path("kitti.txt")) || fs::exists(Path("kitti_times.txt"))) << there;
+  }
 }
 
 TEST_F(TrajloConvertResult, NeitherTheResultNorItsRecordingIsEverReplaced) {

@@ -2,6 +2,7 @@
 // The command as a user calls it.
 #include <gmock/gmock.h>
 
+#include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_reader.h"
@@ -147,6 +148,27 @@ TEST_F(TrajloConvert, AnExcerptHasTheScansOfItsTime) {
   const Outcome nothing = Convert({Path("room"), Path("none"), "--start_s=100"});
   EXPECT_EQ(nothing.exit_code, 2);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+}
+
+TEST_F(TrajloConvert, PosesOutsideTheExcerptAreNoResult) {
+  {
+    ScanBagWriter bag(folder_ / "truth.bag", {});
+    for (int i = 0; i < 20; ++i) bag.WritePose("/truth", 1'000'000'000'000 + i * 100'000'000, {});
+    bag.Close();
+  }
+  const std::vector<std::string> poses = {Path("truth.bag"), Path("truth.tum"), "--poses=/truth"};
+  const auto with = [&](const std::string& flag) {
+    std::vector<std::string> arguments = poses;
+    arguments.push_back(flag);
+    return Convert(arguments);
+  };
+  const Outcome nothing = with("--start_s=100");
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.err,
+              AllOf(HasSubstr("none of the 20 poses of /truth"), HasSubstr("--start_s")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "truth.tum"));
+  ASSERT_EQ(with("--start_s=1.5").exit_code, 0);
+  EXPECT_EQ(ReadTum(Path("truth.tum")).size(), 5u);
 }
 
 TEST_F(TrajloConvert, AnEarlierResultIsKeptUnlessAskedOtherwise) {
