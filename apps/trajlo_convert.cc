@@ -65,6 +65,7 @@ constexpr char kHelp[] =
   trajlo_convert recording.bag recording.mcap
       a bag of one kind (.bag, .mcap, .db3) as another: messages of all topics with all fields. From
       ROS 2 to ROS 1 only clouds, PoseStamped, Odometry, Path and TF; the rest is left out and named
+      (exit code 3, unless --topics names what is wanted)
   trajlo_convert recording.pcap recording.mcap --layout=ouster
       the points of captures (.pcap) and folders of scans as a bag; a layout given for a bag
       converts its points instead of copying its messages
@@ -98,9 +99,9 @@ and other fields are kept only where messages are copied.
 Points of results have no times: they are deskewed. Left out, and counted, are those outside the
 trajectory and within pauses; so are poses that are not to be trusted.
 
-Exit codes: 0 ok, 1 wrong usage, 2 input unreadable, 3 a part of the input is damaged, or the
-recording is not what it was (the rest is written), 5 output not writable, 6 out of memory or a defect of the
-program, 130 interrupted (what was read is written).
+Exit codes: 0 ok, 1 wrong usage, 2 input unreadable, 3 a part of the input is damaged, a topic is
+left out, or the recording is not what it was (the rest is written), 5 output not writable, 6 out of
+memory or a defect of the program, 130 interrupted (what was read is written).
 )";
 
 trajlo::RecordingOptions RecordingFromFlags() {

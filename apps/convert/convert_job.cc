@@ -110,7 +110,8 @@ ExitCode CopyMessagesOver(const ConvertRequest& request, const std::atomic<bool>
   if (!request.quiet) {
     std::printf("%zu messages with all fields in %s\n", copied.messages, request.output.c_str());
   }
-  return copied.report.damaged ? ExitCode::kPartialInput : ExitCode::kOk;
+  const bool partial = copied.report.damaged || !copied.left_out.empty();
+  return partial ? ExitCode::kPartialInput : ExitCode::kOk;
 }
 
 ExitCode WriteScans(const ConvertRequest& request, const std::atomic<bool>& stop) {

@@ -150,7 +150,8 @@ ExitCode WritePoseFile(const ConvertRequest& request, const RunResult& result) {
     tum.Flush();
     tum.Close();
   } else {
-    // KITTI's format has no times: they stand beside it. Both files are there, or neither.
+    // KITTI's format has no times: they stand beside it. Neither is begun if the other is in the
+    // way.
     const fs::path times_path =
         request.output.parent_path() / (request.output.stem().string() + "_times.txt");
     AtomicFile times(times_path, request.WhatIfExists());

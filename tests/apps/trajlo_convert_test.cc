@@ -2,6 +2,7 @@
 // The command as a user calls it.
 #include <gmock/gmock.h>
 
+#include "core/io/conversion/open_bag.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
@@ -169,6 +170,24 @@ TEST_F(TrajloConvert, PosesOutsideTheExcerptAreNoResult) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "truth.tum"));
   ASSERT_EQ(with("--start_s=1.5").exit_code, 0);
   EXPECT_EQ(ReadTum(Path("truth.tum")).size(), 5u);
+}
+
+TEST_F(TrajloConvert, ATopicThatIsLeftOutIsThree) {
+  {
+    const auto bag = OpenBag(folder_ / "a.mcap");
+    const SE3 pose;
+    bag->Write({"/truth", PoseStampedDescription()}, 1,
+               WritePoseStamped({0, 1, "world"}, pose, bag->encoding()));
+    bag->Write({"/thing", {"demo/Thing", "", "uint32 number\n"}}, 2,
+               WireWriter(bag->encoding()).Put(std::uint32_t{7}).bytes());
+    bag->Close();
+  }
+  const Outcome all = Convert({Path("a.mcap"), Path("all.bag")});
+  EXPECT_EQ(all.exit_code, 3);
+  EXPECT_THAT(all.err, HasSubstr("/thing is left out"));
+  EXPECT_EQ(OpenMessages(Path("all.bag"))->topics().size(), 1u);
+  EXPECT_EQ(Convert({Path("a.mcap"), Path("one.bag"), "--topics=/truth"}).exit_code, 0);
+  EXPECT_EQ(Convert({Path("a.mcap"), Path("all.db3")}).exit_code, 0);
 }
 
 TEST_F(TrajloConvert, AnEarlierResultIsKeptUnlessAskedOtherwise) {
