@@ -144,6 +144,10 @@ std::optional<trajlo::simulation::BagFormat> BagFormatFromFlags(const Scenario& 
   if (scenario.motion_corrected) {
     throw UsageError("motion-corrected scans are written as KITTI has them, in no bag");
   }
+  if (scenario.start_time_ns < 0) {
+    throw UsageError("start_time_ns: ROS 1 has no stamps before 1970, found " +
+                     std::to_string(scenario.start_time_ns) + "; --format=pcd has them");
+  }
   trajlo::simulation::BagFormat format;
   format.layout = trajlo::ParseCloudLayout(FLAGS_bag_layout);
   if (!format.layout && !FLAGS_bag_layout.empty()) {

@@ -190,6 +190,20 @@ TEST_F(TrajloConvert, ATopicThatIsLeftOutIsThree) {
   EXPECT_EQ(Convert({Path("a.mcap"), Path("all.db3")}).exit_code, 0);
 }
 
+TEST_F(TrajloConvert, StampsBefore1970AreKeptOrRefused) {
+  std::string stamps;
+  for (int i = 0; i < 12; ++i) stamps += std::to_string(-1.5 + 0.1 * i) + "\n";
+  WriteFile(folder_ / "room/timestamps.txt", stamps);
+  ASSERT_EQ(Convert({Path("room"), Path("a.db3")}).exit_code, 0);
+  const std::vector<LidarScan> scans = ReadAll(Path("a.db3"));
+  ASSERT_EQ(scans.size(), 12u);
+  EXPECT_EQ(scans[0].stamp_ns, -1'500'000'000);
+  const Outcome ros1 = Convert({Path("room"), Path("a.bag")});
+  EXPECT_EQ(ros1.exit_code, 5);
+  EXPECT_THAT(ros1.err, HasSubstr("the stamp -1.500000000 s does not fit: ROS 1 holds 0 to"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "a.bag"));
+}
+
 TEST_F(TrajloConvert, AnEarlierResultIsKeptUnlessAskedOtherwise) {
   WriteFile(folder_ / "a.bag", "precious");
   EXPECT_EQ(Convert({Path("room"), Path("a.bag")}).exit_code, 5);

@@ -19,10 +19,11 @@ struct MessageHeader {
 inline MessageHeader ReadMessageHeader(WireReader* reader) {
   MessageHeader header;
   if (!reader->is_cdr()) header.seq = reader->Read<std::uint32_t>();
-  // ROS 2 has signed seconds; no recording is from before 1970 or behind 2106.
-  const auto seconds = reader->Read<std::uint32_t>();
+  // ROS 2 has signed seconds.
+  const std::int64_t seconds = reader->is_cdr() ? std::int64_t{reader->Read<std::int32_t>()}
+                                                : std::int64_t{reader->Read<std::uint32_t>()};
   const auto nanoseconds = reader->Read<std::uint32_t>();
-  header.stamp_ns = std::int64_t{seconds} * 1'000'000'000 + nanoseconds;
+  header.stamp_ns = seconds * 1'000'000'000 + nanoseconds;
   header.frame_id = reader->ReadString();
   return header;
 }

@@ -9,6 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/errors.h"
+#include "core/io/stamp_text.h"
+
 namespace trajlo {
 namespace {
 
@@ -154,12 +157,31 @@ std::string WriteLivox(const MessageHeader& header, std::int64_t sweep_start_ns,
   return bytes;
 }
 
+/// ROS 1 has unsigned seconds, ROS 2 signed ones.
+void CheckSeconds(std::int64_t seconds, const MessageHeader& header, bool is_ros2) {
+  using Ros1 = std::numeric_limits<std::uint32_t>;
+  using Ros2 = std::numeric_limits<std::int32_t>;
+  const auto least = is_ros2 ? std::int64_t{Ros2::min()} : std::int64_t{Ros1::min()};
+  const auto greatest = is_ros2 ? std::int64_t{Ros2::max()} : std::int64_t{Ros1::max()};
+  if (seconds >= least && seconds <= greatest) return;
+  throw OutputError("a message of frame '" + header.frame_id + "'",
+                    "the stamp " + FormatSeconds(header.stamp_ns) + " s does not fit: ROS " +
+                        (is_ros2 ? "2" : "1") + " holds " + std::to_string(least) + " to " +
+                        std::to_string(greatest) + " s");
+}
+
 }  // namespace
 
 void PutHeader(const MessageHeader& header, WireWriter* out) {
+  // Nanoseconds are unsigned: -0.3 s is -1 s and 700,000,000 ns.
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const std::int64_t beyond_ns = header.stamp_ns % kSecond;
+  const bool is_below = beyond_ns < 0;
+  const std::int64_t seconds = header.stamp_ns / kSecond - (is_below ? 1 : 0);
+  CheckSeconds(seconds, header, out->is_cdr());
   if (!out->is_cdr()) out->Put(header.seq);
-  out->Put(static_cast<std::uint32_t>(header.stamp_ns / 1'000'000'000));
-  out->Put(static_cast<std::uint32_t>(header.stamp_ns % 1'000'000'000));
+  out->Put(static_cast<std::uint32_t>(seconds));
+  out->Put(static_cast<std::uint32_t>(beyond_ns + (is_below ? kSecond : 0)));
   out->PutString(header.frame_id);
 }
 

@@ -25,7 +25,9 @@ enum class CloudLayout {
   kLivox
 };
 
-/// std_msgs/Header, with which stamped messages begin.
+/// std_msgs/Header, with which stamped messages begin. Throws OutputError for a stamp that it
+/// cannot hold: before 1970 or behind 2106 in ROS 1, before 1901 or behind 2038 in ROS 2. So do all
+/// that write messages with one.
 void PutHeader(const MessageHeader& header, WireWriter* out);
 /// geometry_msgs/Pose and geometry_msgs/Transform alike: x y z, then the quaternion x y z w.
 void PutPose(const SE3& pose, WireWriter* out);

@@ -91,6 +91,11 @@ TEST_F(SimulateCommand, WhatGoesIntoNoBagIsSaidBeforeTheOldRecordingIsTouched) {
   const std::string run = "--scenario=street_kitti --duration_s=0.2 --output=" + Out("a");
   ASSERT_EQ(Run(run).exit_code, 0);
   EXPECT_EQ(Run(run + " --format=bag --overwrite").exit_code, 1);
+  const Outcome early =
+      Run("hall_os1_16 --duration_s=0.2 --overwrite --format=bag --output=" + Out("a") +
+          " --set=start_time_ns=-300000000");
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_NE(early.output.find("before 1970"), std::string::npos) << early.output;
   EXPECT_TRUE(fs::exists(folder_ / "a" / "velodyne" / "000000.bin"));
 }
 

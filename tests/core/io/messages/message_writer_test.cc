@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/io/errors.h"
 #include "core/io/messages/pose_decoder.h"
 #include "core/io/scan_decoder.h"
 #include "tests/core/io/messages/messages_testing.h"
@@ -95,6 +96,27 @@ TEST(MessageWriter, ALivoxReflectivityIsRoundedAndClamped) {
       Decoded(TypeOf(CloudLayout::kLivox),
               WriteCloud(CloudLayout::kLivox, {0, kStartNs, ""}, kStartNs, scan));
   EXPECT_EQ(Values(cloud.table, "reflectivity"), (std::vector<double>{0.0, 1.0, 255.0, 0.0}));
+}
+
+TEST(MessageWriter, StampsBefore1970AreReadAsTheyWereOrRefused) {
+  const std::string type = PoseStampedDescription().type;
+  for (const std::int64_t t_ns : {-1'500'000'000LL, -1LL, -2'000'000'000LL, 0LL, 1'999'999'999LL,
+                                  -2'147'483'648'000'000'000LL, 2'147'483'647'999'999'999LL}) {
+    const auto pose =
+        DecodePose(type, Encoding::kCdr, WritePoseStamped({0, t_ns, "world"}, {}, Encoding::kCdr));
+    ASSERT_TRUE(pose);
+    EXPECT_EQ(pose->t_ns, t_ns);
+  }
+  for (const std::int64_t t_ns : {-2'147'483'648'000'000'001LL, 2'147'483'648'000'000'000LL}) {
+    EXPECT_THROW(WritePoseStamped({0, t_ns, "world"}, {}, Encoding::kCdr), OutputError) << t_ns;
+  }
+  for (const std::int64_t t_ns : {-1LL, -1'500'000'000LL, 4'294'967'296'000'000'000LL}) {
+    EXPECT_THROW(WritePoseStamped({0, t_ns, "world"}, {}, Encoding::kRos1), OutputError) << t_ns;
+  }
+  const auto last = DecodePose(type, Encoding::kRos1,
+                               WritePoseStamped({0, 4'294'967'295'999'999'999, "world"}, {}));
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->t_ns, 4'294'967'295'999'999'999);
 }
 
 TEST(MessageWriter, PosesAreReadAsTheyWere) {
