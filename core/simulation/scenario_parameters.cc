@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/config/edit_distance.h"
+
 namespace trajlo::simulation {
 
 namespace {
@@ -23,22 +25,6 @@ std::vector<Parameter> LidarParameters(const std::string& prefix, LidarConfig* l
           {prefix + "dropout_fraction", &m.dropout_fraction},
           {prefix + "min_range_m", &m.min_range_m},
           {prefix + "max_range_m", &m.max_range_m}};
-}
-
-/// Levenshtein's distance, for the suggestion in an error message.
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row[b.size()];
 }
 
 [[noreturn]] void ThrowUnreadable(const std::string& text, const std::string& expected) {
@@ -182,7 +168,7 @@ void SetParameter(Scenario* scenario, const std::string& key, const std::string&
     return;
   }
   const Parameter* nearest = nullptr;
-  std::size_t nearest_distance = 0;
+  int nearest_distance = 0;
   const std::vector<Parameter> parameters = Parameters(scenario);
   for (const Parameter& parameter : parameters) {
     if (parameter.key == key) {
@@ -199,9 +185,8 @@ void SetParameter(Scenario* scenario, const std::string& key, const std::string&
       return;
     }
     // A key cut short counts as near as well: 'motion.sped' means motion.speed_mps.
-    const std::size_t distance =
-        std::min(EditDistance(key, parameter.key),
-                 EditDistance(key, parameter.key.substr(0, key.size())) + 1);
+    const int distance = std::min(EditDistance(key, parameter.key),
+                                  EditDistance(key, parameter.key.substr(0, key.size())) + 1);
     if (nearest == nullptr || distance < nearest_distance) {
       nearest = &parameter;
       nearest_distance = distance;
