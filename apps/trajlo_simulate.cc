@@ -103,8 +103,8 @@ void ApplySettings(const std::string& settings, Scenario* scenario) {
   std::set<std::string> seen;
   for (const auto& [key, value] : pairs) {
     if (!seen.insert(key).second) throw UsageError("--set: '" + key + "' is set twice");
-    trajlo::simulation::SetParameter(scenario, key, value);
   }
+  trajlo::simulation::SetParameters(scenario, std::move(pairs));
 }
 
 /// The name of the scenario: --scenario or the argument. Throws if there is no such scenario; empty
@@ -119,13 +119,32 @@ std::string ScenarioName(const trajlo::CommandLine& line) {
                    (nearest.empty() ? "; --list shows them" : "; did you mean " + nearest + "?"));
 }
 
+void CheckNumbers() {
+  using trajlo::simulation::kLongestDuration_s;
+  using trajlo::simulation::kShortestDuration_s;
+  if (!(FLAGS_duration_s == 0.0 ||
+        (FLAGS_duration_s >= kShortestDuration_s && FLAGS_duration_s <= kLongestDuration_s))) {
+    std::ostringstream text;
+    text << "--duration_s: must be between " << kShortestDuration_s << " and " << kLongestDuration_s
+         << " s, or 0, found " << FLAGS_duration_s;
+    throw UsageError(text.str());
+  }
+  if (FLAGS_seed < 0) {
+    throw UsageError("--seed: must not be negative, found " + std::to_string(FLAGS_seed));
+  }
+  if (FLAGS_threads < 0) {
+    throw UsageError("--threads: must not be negative, found " + std::to_string(FLAGS_threads));
+  }
+}
+
 Scenario ScenarioFromFlags(const std::string& name) {
   if (name.empty()) {
     throw UsageError("name a scenario (--list shows them): trajlo_simulate SCENARIO -o FOLDER");
   }
   Scenario scenario = trajlo::simulation::MakeScenario(name);
+  CheckNumbers();
   if (FLAGS_duration_s > 0.0) scenario.duration_s = FLAGS_duration_s;
-  if (FLAGS_seed != 0) scenario.seed = static_cast<std::uint64_t>(FLAGS_seed);
+  if (FLAGS_seed > 0) scenario.seed = static_cast<std::uint64_t>(FLAGS_seed);
   ApplySettings(FLAGS_set, &scenario);
   return scenario;
 }

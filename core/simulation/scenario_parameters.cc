@@ -2,74 +2,50 @@
 #include "core/simulation/scenario_parameters.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <type_traits>
 
 #include "core/config/edit_distance.h"
+#include "core/simulation/scenes/scene_builder.h"
 
 namespace trajlo::simulation {
 
 namespace {
 
+using Real = Bounded<double>;
+using Whole = Bounded<int>;
+
+// Bounds keep out what is certainly a mistake, and what would not fit into a stamp.
+constexpr double kLongest_s = 1e6;
+constexpr double kFarthest_m = 1e6;
+constexpr int kMostColumns = 100'000;
+constexpr std::int64_t kEndOfTime_ns = 4'000'000'000'000'000'000;
+
+Real Share(double* value) { return {value, 0.0, 1.0}; }
+/// A time or a size that is not negative.
+Real Seconds(double* value) { return {value, 0.0, kLongest_s}; }
+Real Metres(double* value) { return {value, 0.0, kFarthest_m}; }
+
 std::vector<Parameter> LidarParameters(const std::string& prefix, LidarConfig* lidar) {
   MeasurementModel& m = lidar->measurement;
-  return {{prefix + "sensor", &lidar->sensor},
-          {prefix + "columns", &lidar->columns},
+  return {{prefix + "sensor", Word{&lidar->sensor, SensorNames()}},
+          {prefix + "columns", Whole{&lidar->columns, 0, kMostColumns}},
           {prefix + "T_body_lidar", &lidar->T_body_lidar},
-          {prefix + "phase_s", &lidar->phase_s},
-          {prefix + "clock_offset_s", &lidar->clock_offset_s},
-          {prefix + "range_sigma_m", &m.range_sigma_m},
-          {prefix + "angle_sigma_rad", &m.angle_sigma_rad},
-          {prefix + "dropout_fraction", &m.dropout_fraction},
-          {prefix + "min_range_m", &m.min_range_m},
-          {prefix + "max_range_m", &m.max_range_m}};
+          {prefix + "phase_s", Real{&lidar->phase_s, -kLongest_s, kLongest_s}},
+          {prefix + "clock_offset_s", Real{&lidar->clock_offset_s, -1e9, 1e9}},
+          {prefix + "range_sigma_m", Metres(&m.range_sigma_m)},
+          {prefix + "angle_sigma_rad", Real{&m.angle_sigma_rad, 0.0, 3.0}},
+          {prefix + "dropout_fraction", Share(&m.dropout_fraction)},
+          {prefix + "min_range_m", Metres(&m.min_range_m)},
+          {prefix + "max_range_m", Metres(&m.max_range_m)}};
 }
-
-[[noreturn]] void ThrowUnreadable(const std::string& text, const std::string& expected) {
-  throw std::invalid_argument("'" + text + "' is not " + expected);
-}
-
-double ParseDouble(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0') ThrowUnreadable(text, "a number");
-  return value;
-}
-
-long long ParseInteger(const std::string& text) {
-  char* end = nullptr;
-  const long long value = std::strtoll(text.c_str(), &end, 10);
-  if (text.empty() || *end != '\0') ThrowUnreadable(text, "a whole number");
-  return value;
-}
-
-SE3 ParsePose(const std::string& text) {
-  std::vector<double> v;
-  std::istringstream stream(text);
-  for (std::string field; std::getline(stream, field, ',');) v.push_back(ParseDouble(field));
-  if (v.size() != 7) ThrowUnreadable(text, "a pose x,y,z,qx,qy,qz,qw");
-  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (!(q.norm() > 0.5)) ThrowUnreadable(text, "a pose with a unit quaternion");
-  return {q.normalized(), {v[0], v[1], v[2]}};
-}
-
-struct Assign {
-  const std::string& text;
-  void operator()(double* value) const { *value = ParseDouble(text); }
-  void operator()(int* value) const { *value = static_cast<int>(ParseInteger(text)); }
-  void operator()(std::int64_t* value) const { *value = ParseInteger(text); }
-  void operator()(std::uint64_t* value) const {
-    *value = static_cast<std::uint64_t>(ParseInteger(text));
-  }
-  void operator()(std::string* value) const { *value = text; }
-  void operator()(SE3* value) const { *value = ParsePose(text); }
-  void operator()(bool* value) const {
-    if (text != "true" && text != "false") ThrowUnreadable(text, "true or false");
-    *value = text == "true";
-  }
-};
 
 /// The shortest text that reads back as the same double.
 std::string ShortestText(double value) {
@@ -81,12 +57,78 @@ std::string ShortestText(double value) {
   return text;
 }
 
+std::string Text(double value) { return ShortestText(value); }
+template <typename Integer>
+std::string Text(Integer value) {
+  return std::to_string(value);
+}
+
+[[noreturn]] void ThrowUnreadable(const std::string& text, const std::string& expected) {
+  throw std::invalid_argument("'" + text + "' is not " + expected);
+}
+
+/// The whole text but for blanks before it, whatever the locale.
+template <typename T>
+bool Parse(std::string_view text, T* value) {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  const char* end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, *value);
+  return error == std::errc() && at == end;
+}
+
+SE3 ParsePose(const std::string& text) {
+  std::vector<double> v;
+  std::istringstream stream(text);
+  for (std::string field; std::getline(stream, field, ',');) {
+    double number = 0.0;
+    if (!Parse(field, &number) || !(std::abs(number) <= kFarthest_m)) {
+      ThrowUnreadable(field, "a number from " + Text(-kFarthest_m) + " to " + Text(kFarthest_m));
+    }
+    v.push_back(number);
+  }
+  if (v.size() != 7) ThrowUnreadable(text, "a pose x,y,z,qx,qy,qz,qw");
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (!(q.norm() > 0.5)) ThrowUnreadable(text, "a pose with a unit quaternion");
+  return {q.normalized(), {v[0], v[1], v[2]}};
+}
+
+struct Assign {
+  const std::string& text;
+
+  template <typename T>
+  void operator()(const Bounded<T>& number) const {
+    T value{};
+    if (Parse(text, &value) && value >= number.least && value <= number.greatest) {
+      *number.value = value;
+      return;
+    }
+    const char* kind = std::is_integral_v<T> ? "a whole number" : "a number";
+    ThrowUnreadable(
+        text, std::string(kind) + " from " + Text(number.least) + " to " + Text(number.greatest));
+  }
+  void operator()(const Word& word) const {
+    const std::vector<std::string>& choices = word.choices;
+    if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
+      std::string names;
+      for (const std::string& name : choices) names += (names.empty() ? "" : ", ") + name;
+      ThrowUnreadable(text, "one of " + names);
+    }
+    *word.value = text;
+  }
+  void operator()(SE3* value) const { *value = ParsePose(text); }
+  void operator()(bool* value) const {
+    if (text != "true" && text != "false") ThrowUnreadable(text, "true or false");
+    *value = text == "true";
+  }
+};
+
 struct Format {
-  std::string operator()(const double* value) const { return ShortestText(*value); }
-  std::string operator()(const int* value) const { return std::to_string(*value); }
-  std::string operator()(const std::int64_t* value) const { return std::to_string(*value); }
-  std::string operator()(const std::uint64_t* value) const { return std::to_string(*value); }
-  std::string operator()(const std::string* value) const { return *value; }
+  template <typename T>
+  std::string operator()(const Bounded<T>& number) const {
+    return Text(*number.value);
+  }
+  std::string operator()(const Word& word) const { return *word.value; }
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const SE3* value) const {
     const Eigen::Vector3d& t = value->t;
@@ -99,56 +141,72 @@ struct Format {
   }
 };
 
+[[noreturn]] void ThrowUnknown(const std::string& key, const std::vector<Parameter>& parameters) {
+  const Parameter* nearest = nullptr;
+  int nearest_distance = 0;
+  for (const Parameter& parameter : parameters) {
+    // A key cut short counts as near as well: 'motion.sped' means motion.speed_mps.
+    const int distance = std::min(EditDistance(key, parameter.key),
+                                  EditDistance(key, parameter.key.substr(0, key.size())) + 1);
+    if (nearest == nullptr || distance < nearest_distance) {
+      nearest = &parameter;
+      nearest_distance = distance;
+    }
+  }
+  throw std::invalid_argument("there is no parameter '" + key + "'; did you mean '" + nearest->key +
+                              "'?");
+}
+
 }  // namespace
 
 std::vector<Parameter> Parameters(Scenario* s) {
   MotionConfig& m = s->motion;
   FaultConfig& f = s->faults;
   std::vector<Parameter> parameters = {
-      {"duration_s", &s->duration_s},
-      {"start_time_ns", &s->start_time_ns},
-      {"seed", &s->seed},
-      {"scene", &s->scene},
+      {"duration_s", Real{&s->duration_s, kShortestDuration_s, kLongestDuration_s}},
+      {"start_time_ns", Bounded<std::int64_t>{&s->start_time_ns, -kEndOfTime_ns, kEndOfTime_ns}},
+      {"seed", Bounded<std::uint64_t>{&s->seed, 0, std::numeric_limits<std::uint64_t>::max()}},
+      {"scene", Word{&s->scene, SceneNames()}},
       {"moving_objects", &s->moving_objects},
       {"motion_corrected", &s->motion_corrected},
-      {"motion.kind", &m.kind},
-      {"motion.rest_s", &m.rest_s},
+      {"motion.kind", Word{&m.kind, MotionKinds()}},
+      {"motion.rest_s", Seconds(&m.rest_s)},
       {"motion.moving_start", &m.moving_start},
-      {"motion.speed_mps", &m.speed_mps},
-      {"motion.unevenness", &m.unevenness},
-      {"motion.acceleration_mps2", &m.acceleration_mps2},
-      {"motion.cruise_s", &m.cruise_s},
-      {"motion.braking_mps2", &m.braking_mps2},
-      {"motion.stop_s", &m.stop_s},
-      {"motion.height_m", &m.height_m},
-      {"motion.shake", &m.shake},
-      {"motion.max_tilt_deg", &m.max_tilt_deg},
-      {"motion.climb_s", &m.climb_s},
+      {"motion.speed_mps", Real{&m.speed_mps, -1000.0, 1000.0}},
+      {"motion.unevenness", Share(&m.unevenness)},
+      {"motion.acceleration_mps2", Real{&m.acceleration_mps2, 0.0, 1000.0}},
+      {"motion.cruise_s", Seconds(&m.cruise_s)},
+      {"motion.braking_mps2", Real{&m.braking_mps2, 0.0, 1000.0}},
+      {"motion.stop_s", Seconds(&m.stop_s)},
+      {"motion.height_m", Real{&m.height_m, -1000.0, 1000.0}},
+      {"motion.shake", Real{&m.shake, 0.0, 1000.0}},
+      {"motion.max_tilt_deg", Real{&m.max_tilt_deg, 0.1, 90.0}},
+      {"motion.climb_s", Seconds(&m.climb_s)},
       {"motion.landing", &m.landing},
-      {"motion.turn_rate_rad_s", &m.turn_rate_rad_s},
-      {"motion.rope_m", &m.rope_m},
-      {"motion.swing_deg", &m.swing_deg},
-      {"motion.swing_hz", &m.swing_hz},
-      {"motion.burst_deg", &m.burst_deg},
-      {"motion.burst_every_s", &m.burst_every_s},
-      {"motion.glance_s", &m.glance_s},
-      {"motion.replay_file", &m.replay_file},
+      {"motion.turn_rate_rad_s", Real{&m.turn_rate_rad_s, -1000.0, 1000.0}},
+      {"motion.rope_m", Real{&m.rope_m, 0.0, 1000.0}},
+      {"motion.swing_deg", Real{&m.swing_deg, -360.0, 360.0}},
+      {"motion.swing_hz", Real{&m.swing_hz, 0.0, 1000.0}},
+      {"motion.burst_deg", Real{&m.burst_deg, -360.0, 360.0}},
+      {"motion.burst_every_s", Real{&m.burst_every_s, 0.001, kLongest_s}},
+      {"motion.glance_s", Real{&m.glance_s, 0.001, kLongest_s}},
+      {"motion.replay_file", Word{&m.replay_file, {}}},
       {"motion.replay_placed", &m.replay_placed},
-      {"faults.dropped_scan_fraction", &f.dropped_scan_fraction},
-      {"faults.repeated_scan_fraction", &f.repeated_scan_fraction},
-      {"faults.nan_point_fraction", &f.nan_point_fraction},
-      {"faults.duplicate_stamp_fraction", &f.duplicate_stamp_fraction},
-      {"faults.backward_stamp_fraction", &f.backward_stamp_fraction},
-      {"faults.backward_step_s", &f.backward_step_s},
-      {"faults.stamp_jitter_s", &f.stamp_jitter_s},
-      {"faults.silent_lidar", &f.silent_lidar},
-      {"faults.silent_from_s", &f.silent_from_s},
-      {"faults.silent_until_s", &f.silent_until_s},
-      {"faults.pause_from_s", &f.pause_from_s},
-      {"faults.pause_s", &f.pause_s},
-      {"faults.cover_from_s", &f.cover_from_s},
-      {"faults.cover_s", &f.cover_s},
-      {"faults.cover_m", &f.cover_m},
+      {"faults.dropped_scan_fraction", Share(&f.dropped_scan_fraction)},
+      {"faults.repeated_scan_fraction", Share(&f.repeated_scan_fraction)},
+      {"faults.nan_point_fraction", Share(&f.nan_point_fraction)},
+      {"faults.duplicate_stamp_fraction", Share(&f.duplicate_stamp_fraction)},
+      {"faults.backward_stamp_fraction", Share(&f.backward_stamp_fraction)},
+      {"faults.backward_step_s", Seconds(&f.backward_step_s)},
+      {"faults.stamp_jitter_s", Seconds(&f.stamp_jitter_s)},
+      {"faults.silent_lidar", Whole{&f.silent_lidar, -1, static_cast<int>(s->rig.size()) - 1}},
+      {"faults.silent_from_s", Seconds(&f.silent_from_s)},
+      {"faults.silent_until_s", Seconds(&f.silent_until_s)},
+      {"faults.pause_from_s", Seconds(&f.pause_from_s)},
+      {"faults.pause_s", Seconds(&f.pause_s)},
+      {"faults.cover_from_s", Seconds(&f.cover_from_s)},
+      {"faults.cover_s", Seconds(&f.cover_s)},
+      {"faults.cover_m", Metres(&f.cover_m)},
       {"faults.end_of_sweep_stamps", &f.end_of_sweep_stamps},
   };
   for (std::size_t id = 0; id < s->rig.size(); ++id) {
@@ -167,33 +225,28 @@ void SetParameter(Scenario* scenario, const std::string& key, const std::string&
     }
     return;
   }
-  const Parameter* nearest = nullptr;
-  int nearest_distance = 0;
   const std::vector<Parameter> parameters = Parameters(scenario);
-  for (const Parameter& parameter : parameters) {
-    if (parameter.key == key) {
-      try {
-        std::visit(Assign{text}, parameter.value);
-        for (LidarConfig& lidar : scenario->rig) {
-          if (parameter.value == Parameter{"", &lidar.sensor}.value) {
-            lidar.measurement = MakeSensor(lidar.sensor, lidar.columns).measurement;
-          }
-        }
-      } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(key + ": " + error.what());
-      }
-      return;
-    }
-    // A key cut short counts as near as well: 'motion.sped' means motion.speed_mps.
-    const int distance = std::min(EditDistance(key, parameter.key),
-                                  EditDistance(key, parameter.key.substr(0, key.size())) + 1);
-    if (nearest == nullptr || distance < nearest_distance) {
-      nearest = &parameter;
-      nearest_distance = distance;
-    }
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const Parameter& one) { return one.key == key; });
+  if (found == parameters.end()) ThrowUnknown(key, parameters);
+  try {
+    std::visit(Assign{text}, found->value);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(key + ": " + error.what());
   }
-  throw std::invalid_argument("there is no parameter '" + key + "'; did you mean '" + nearest->key +
-                              "'?");
+  const Word* word = std::get_if<Word>(&found->value);
+  for (LidarConfig& lidar : scenario->rig) {
+    if (word == nullptr || word->value != &lidar.sensor) continue;
+    lidar.measurement = MakeSensor(lidar.sensor, lidar.columns).measurement;
+  }
+}
+
+void SetParameters(Scenario* scenario, std::vector<std::pair<std::string, std::string>> settings) {
+  std::stable_partition(settings.begin(), settings.end(), [](const auto& setting) {
+    const std::string& key = setting.first;
+    return key.substr(key.find('.') + 1) == "sensor";
+  });
+  for (const auto& [key, text] : settings) SetParameter(scenario, key, text);
 }
 
 std::string ParameterText(const Parameter& parameter) {

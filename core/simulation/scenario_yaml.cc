@@ -33,7 +33,7 @@ std::string Quoted(const std::string& text) {
 
 std::string Scalar(const Parameter& parameter) {
   const std::string text = ParameterText(parameter);
-  return std::holds_alternative<std::string*>(parameter.value) ? Quoted(text) : text;
+  return std::holds_alternative<Word>(parameter.value) ? Quoted(text) : text;
 }
 
 }  // namespace

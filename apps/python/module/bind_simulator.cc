@@ -25,8 +25,6 @@ using simulation::Simulator;
 
 /// The truth is told as often as in truth.tum.
 constexpr std::int64_t kTruthStep_ns = 1'000'000;
-/// Longer recordings are a mistake in the unit: their list of sweeps alone would fill the memory.
-constexpr double kLongest_s = 86'400.0;
 
 struct Parameters {
   std::optional<std::int64_t> seed;
@@ -41,10 +39,8 @@ Scenario MakeScenario(const std::string& name, const Parameters& parameters) {
     if (*parameters.seed < 0) throw std::invalid_argument("seed: must not be negative");
     scenario.seed = static_cast<std::uint64_t>(*parameters.seed);
   }
-  for (const auto& [key, text] : parameters.others) {
-    simulation::SetParameter(&scenario, key, text);
-  }
-  if (!(scenario.duration_s > 0.0 && scenario.duration_s <= kLongest_s)) {
+  simulation::SetParameters(&scenario, parameters.others);
+  if (!(scenario.duration_s > 0.0 && scenario.duration_s <= simulation::kLongestDuration_s)) {
     throw std::invalid_argument("duration_s: must be positive and at most 86400 s, found " +
                                 std::to_string(scenario.duration_s));
   }

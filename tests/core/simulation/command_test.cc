@@ -58,6 +58,27 @@ TEST_F(SimulateCommand, WrongUsageExitsWithOneAndSaysWhy) {
   EXPECT_FALSE(fs::exists(Out("a")));
 }
 
+TEST_F(SimulateCommand, WrongNumbersExitWithOneAndSayWhatIsAllowed) {
+  const std::string run = "--scenario=hall_os1_16 --output=" + Out("a") + " ";
+  for (const char* mistake :
+       {"--duration_s=-5", "--duration_s=nan", "--duration_s=90000", "--seed=-1", "--threads=-1",
+        "--set=seed=-1", "--set=lidar.columns=4294967297", "--set=lidar.range_sigma_m=nan",
+        "--set=motion.speed_mps=inf", "--set=lidar0.T_body_lidar=nan,0,0,0,0,0,1",
+        "--set=motion.kind=run"}) {
+    const Outcome outcome = Run(run + mistake);
+    EXPECT_EQ(outcome.exit_code, 1) << mistake;
+    const std::string words(mistake);
+    EXPECT_NE(outcome.output.find(words.substr(words.rfind('=') + 1, 3)), std::string::npos)
+        << outcome.output;
+  }
+  EXPECT_FALSE(fs::exists(Out("a")));
+  ASSERT_EQ(
+      Run(run + "--duration_s=0.1 --set=lidar0.range_sigma_m=0.5,lidar0.sensor=vlp16").exit_code,
+      0);
+  EXPECT_NE(Contents(folder_ / "a" / "scenario.yaml").find("range_sigma_m: 0.5"),
+            std::string::npos);
+}
+
 TEST_F(SimulateCommand, AnExistingRecordingIsKeptUnlessAskedOtherwise) {
   const std::string run = "--scenario=hall_os1_16 --output=" + Out("a");
   EXPECT_EQ(Run(run + " --duration_s=0.3").exit_code, 0);

@@ -53,7 +53,68 @@ TEST(Scenario, AWrongKeyOrValueIsNamedWithTheNearestKey) {
             std::string::npos);
   EXPECT_NE(MessageOf("moving_objects", "yes").find("true or false"), std::string::npos);
   EXPECT_NE(MessageOf("lidar0.T_body_lidar", "1,2,3").find("x,y,z,qx,qy,qz,qw"), std::string::npos);
-  EXPECT_NE(MessageOf("lidar0.sensor", "os9").find("unknown sensor"), std::string::npos);
+  EXPECT_NE(MessageOf("lidar0.sensor", "os9").find("'os9' is not one of avia, "),
+            std::string::npos);
+}
+
+TEST(Scenario, AWrongNumberIsNamedWithWhatIsAllowed) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"lidar.columns", "4294967297"},
+      {"lidar.columns", "-7"},
+      {"lidar.columns", "1e3"},
+      {"lidar.range_sigma_m", "nan"},
+      {"lidar.dropout_fraction", "nan"},
+      {"lidar.max_range_m", "-3"},
+      {"lidar.clock_offset_s", "inf"},
+      {"faults.dropped_scan_fraction", "2"},
+      {"faults.silent_lidar", "1"},
+      {"motion.speed_mps", "inf"},
+      {"motion.speed_mps", ""},
+      {"motion.speed_mps", "1 "},
+      {"motion.max_tilt_deg", "0"},
+      {"duration_s", "0"},
+      {"duration_s", "nan"},
+      {"seed", "-1"},
+      {"seed", "18446744073709551616"},
+      {"start_time_ns", "9000000000000000000"},
+      {"lidar0.T_body_lidar", "nan,0,0,0,0,0,1"},
+      {"lidar0.T_body_lidar", "0,0,0,0,0,inf,1"},
+  };
+  for (const auto& [key, text] : mistakes) {
+    const std::string message = MessageOf(key, text);
+    const std::string name(key);
+    EXPECT_NE(message.find(name.substr(name.find('.') + 1)), std::string::npos) << name << text;
+    EXPECT_NE(message.find("number from "), std::string::npos) << message;
+  }
+  EXPECT_EQ(MessageOf("motion.shake", "-2"), "motion.shake: '-2' is not a number from 0 to 1000");
+  EXPECT_EQ(MessageOf("seed", "18446744073709551615"), "");
+  EXPECT_EQ(MessageOf("lidar0.T_body_lidar", "0, 0, +0.1, 0, 0, 0, 1"), "");
+  // Everything that a scenario has by itself is allowed.
+  for (const std::string& name : ScenarioNames()) {
+    Scenario scenario = MakeScenario(name);
+    for (const Parameter& parameter : Parameters(&scenario)) {
+      EXPECT_NO_THROW(SetParameter(&scenario, parameter.key, ParameterText(parameter))) << name;
+    }
+  }
+}
+
+TEST(Scenario, WordsAreNamedWithTheirChoices) {
+  EXPECT_NE(MessageOf("motion.kind", "run").find("'run' is not one of walk, flight"),
+            std::string::npos);
+  EXPECT_NE(MessageOf("scene", "mars").find(", hall, "), std::string::npos);
+}
+
+TEST(Scenario, SensorsAreSetBeforeTheirNumbers) {
+  for (const bool sensor_first : {false, true}) {
+    std::vector<std::pair<std::string, std::string>> settings = {
+        {"lidar0.range_sigma_m", "0.5"}, {"motion.shake", "0"}, {"lidar.sensor", "vlp16"}};
+    if (sensor_first) std::swap(settings.front(), settings.back());
+    Scenario scenario = MakeScenario("hall_os1_16");
+    SetParameters(&scenario, settings);
+    EXPECT_EQ(scenario.rig[0].sensor, "vlp16");
+    EXPECT_EQ(scenario.rig[0].measurement.range_sigma_m, 0.5);
+    EXPECT_EQ(scenario.motion.shake, 0.0);
+  }
 }
 
 TEST(Scenario, ANewSensorBringsItsOwnMeasurementModel) {
