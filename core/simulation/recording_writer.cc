@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 
+#include "core/io/output_file.h"
+#include "core/io/stamp_text.h"
 #include "core/simulation/scenario_yaml.h"
 #include "core/simulation/scene_picture.h"
 
@@ -27,12 +27,10 @@ void MakeFolder(const fs::path& path) {
 }
 
 void WriteFile(const fs::path& path, const std::string& head, const std::vector<float>& body = {}) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(head.data(), static_cast<std::streamsize>(head.size()));
-  file.write(reinterpret_cast<const char*>(body.data()),
-             static_cast<std::streamsize>(body.size() * sizeof(float)));
-  file.close();
-  if (!file) throw std::runtime_error("cannot write '" + path.string() + "'");
+  OutputFile file(path, IfExists::kReplace);
+  file.Write(head);
+  file.Write({reinterpret_cast<const char*>(body.data()), body.size() * sizeof(float)});
+  file.Close();
 }
 
 std::string NumberedName(std::size_t number, const char* extension) {
@@ -67,10 +65,11 @@ void WriteKittiBin(const fs::path& path, const LidarScan& scan) {
   WriteFile(path, "", data);
 }
 
+/// With more decimals of the rotation than TumWriter: it is the truth.
 std::string TumLine(std::int64_t t_ns, const SE3& T) {
   char text[256];
   std::snprintf(text, sizeof(text), "%s %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n",
-                SecondsText(t_ns).c_str(), T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(),
+                FormatSeconds(t_ns).c_str(), T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(),
                 T.q.w());
   return text;
 }
@@ -90,7 +89,7 @@ std::string KittiLine(const SE3& T) {
 
 std::string Lines(const std::vector<std::int64_t>& times_ns) {
   std::string text;
-  for (const std::int64_t t_ns : times_ns) text += SecondsText(t_ns) + "\n";
+  for (const std::int64_t t_ns : times_ns) text += FormatSeconds(t_ns) + "\n";
   return text;
 }
 
@@ -102,15 +101,6 @@ std::string TopicsYaml(const std::vector<std::string>& topics) {
 }
 
 }  // namespace
-
-std::string SecondsText(std::int64_t t_ns) {
-  char text[48];
-  const std::int64_t magnitude = std::llabs(t_ns);
-  std::snprintf(text, sizeof(text), "%s%lld.%09lld", t_ns < 0 ? "-" : "",
-                static_cast<long long>(magnitude / 1'000'000'000),
-                static_cast<long long>(magnitude % 1'000'000'000));
-  return text;
-}
 
 RecordingWriter::RecordingWriter(const Simulator& simulator, fs::path directory,
                                  const std::optional<BagFormat>& bag)
@@ -189,7 +179,7 @@ void RecordingWriter::WriteKittiTables(const Stream& stream, int lidar_id) const
     const SE3 T_world_lidar =
         simulator_.TrueWorldFromBody(t_ns - clock_offset_ns) * lidar.T_body_lidar;
     if (i == 0) T_first_world = T_world_lidar.Inverse();
-    times += SecondsText(t_ns - simulator_.start_ns()) + "\n";
+    times += FormatSeconds(t_ns - simulator_.start_ns()) + "\n";
     poses += KittiLine(T_first_world * T_world_lidar);
   }
   WriteFile(stream.directory / "times.txt", times);

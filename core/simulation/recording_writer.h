@@ -65,7 +65,4 @@ class RecordingWriter {
   std::int64_t points_ = 0;
 };
 
-/// The text of seconds with 9 decimals, exact for any int64.
-std::string SecondsText(std::int64_t t_ns);
-
 }  // namespace trajlo::simulation

@@ -237,11 +237,5 @@ TEST_F(RecordingWriterTest, AFolderThatCannotBeMadeIsNamed) {
   }
 }
 
-TEST(SecondsText, IsExactForAnyStamp) {
-  EXPECT_EQ(SecondsText(0), "0.000000000");
-  EXPECT_EQ(SecondsText(1'700'000'000'123'456'789), "1700000000.123456789");
-  EXPECT_EQ(SecondsText(-1), "-0.000000001");
-}
-
 }  // namespace
 }  // namespace trajlo::simulation
