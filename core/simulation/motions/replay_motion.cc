@@ -3,13 +3,13 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/io/stamp_text.h"
+#include "core/io/trajectory_reader.h"
 #include "core/simulation/motions/motion_makers.h"
 
 namespace trajlo::simulation {
@@ -58,42 +58,35 @@ class CubicSpline {
   std::vector<Vector7d> m_;
 };
 
-CubicSpline ReadTum(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw std::runtime_error("cannot open the trajectory '" + path + "' to replay");
+CubicSpline ReadSpline(const std::string& path) {
+  std::vector<std::string> warnings;
+  const std::vector<StampedPose> file = ReadTum(path, &warnings);
+  // Exactly the file is flown, or nothing.
+  if (!warnings.empty()) throw std::runtime_error(warnings.front());
+  if (file.size() < 2) throw std::runtime_error(path + ": a replay needs at least two poses");
   std::vector<double> times;
   std::vector<Vector7d> poses;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos || line[first] == '#') continue;
-    std::istringstream fields(line);
-    double t = 0.0;
-    Vector7d pose;
-    fields >> t;
-    for (double& value : pose) fields >> value;
-    const bool usable = fields && pose.allFinite() && pose.tail<4>().norm() > 0.5;
-    if (!usable || (!times.empty() && t <= times.back())) {
-      throw std::runtime_error(path + ":" + std::to_string(number) +
-                               ": expected 't x y z qx qy qz qw' with increasing t");
+  for (const StampedPose& stamped : file) {
+    const double t = 1e-9 * static_cast<double>(stamped.t_ns - file.front().t_ns);
+    if (!times.empty() && t <= times.back()) {
+      throw std::runtime_error(path + ": the pose at " + FormatSeconds(stamped.t_ns) +
+                               " s does not come after the one before it");
     }
-    pose.tail<4>().normalize();
+    Vector7d pose;
+    pose << stamped.T_world_body.t, stamped.T_world_body.q.coeffs();
     if (!poses.empty() && pose.tail<4>().dot(poses.back().tail<4>()) < 0.0) {
       pose.tail<4>() = -pose.tail<4>();
     }
     times.push_back(t);
     poses.push_back(pose);
   }
-  if (times.size() < 2) throw std::runtime_error(path + ": a replay needs at least two poses");
-  const double start = times.front();
-  for (double& t : times) t -= start;
   return {std::move(times), std::move(poses)};
 }
 
 }  // namespace
 
 PoseFunction MakeReplay(const MotionConfig& config, const SceneRoutes& routes, double duration_s) {
-  const CubicSpline spline = ReadTum(config.replay_file);
+  const CubicSpline spline = ReadSpline(config.replay_file);
   if (spline.end() < duration_s - 1e-6) {
     throw std::runtime_error(config.replay_file + ": it holds " + std::to_string(spline.end()) +
                              " s, the recording would last " + std::to_string(duration_s) + " s");

@@ -267,13 +267,35 @@ TEST_F(Replay, PassesThroughTheGivenPosesSmoothly) {
 }
 
 TEST_F(Replay, SaysWhichLineIsWrong) {
-  Write("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 zero 1\n");
-  try {
-    Make(false, 0.5);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find(":2:"), std::string::npos) << error.what();
+  const std::pair<const char*, const char*> mistakes[] = {{"1 0 0 0 0 0 zero 1\n", "line 2"},
+                                                          {"1 nan 0 0 0 0 0 1\n", "line 2"},
+                                                          {"1 0 0 0 0 0 0 0\n", "line 2"},
+                                                          {"1 0 0 0", "line 2"},
+                                                          {"0 0 0 0 0 0 0 1\n", "0.000000000 s"}};
+  for (const auto& [line, place] : mistakes) {
+    Write(std::string("0 0 0 0 0 0 0 1\n") + line);
+    try {
+      Make(false, 0.5);
+      ADD_FAILURE() << line;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(place), std::string::npos) << error.what();
+    }
   }
+}
+
+TEST_F(Replay, TimesSince1970AreAsExactAsOthers) {
+  std::string early, late;
+  for (int i = 0; i < 30; ++i) {
+    char line[160];
+    std::snprintf(line, sizeof(line), "%02d.%03d %d 0 0 0 0 0 1\n", i / 10, 100 * (i % 10), i * i);
+    early += std::string("000000") + line;
+    late += std::string("17000000") + line;
+  }
+  Write(early);
+  const PoseFunction exact = Make(false);
+  Write(late);
+  const PoseFunction same = Make(false);
+  for (double t = 0.0; t < 1.9; t += 0.013) EXPECT_EQ(same(t).t.x(), exact(t).t.x()) << t;
 }
 
 TEST_F(Replay, RefusesAFileThatIsShorterThanTheRecording) {
