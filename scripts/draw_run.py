@@ -80,6 +80,8 @@ def contents(arguments, output):
             shown = view.embedded(run)
     except files.ReportError as error:
         missing = [f"{error}."]
+    if run is None or run.estimate is None:
+        estimates = []
     return {"title": arguments.title or title_of(run_json, arguments.result),
             "verdict": run_summary.verdict(run_json),
             "ended_well": run_json.get("exit", {}).get("code") in (0, 3),

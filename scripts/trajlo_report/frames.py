@@ -2,7 +2,6 @@
 """The frame that a page about a run is drawn in: that of the truth where there is one, so that the
 map, the path and the errors fit on each other; else the run's own."""
 import dataclasses
-import pathlib
 
 import numpy as np
 
@@ -32,11 +31,22 @@ def frame_of(estimate):
                  "in the frame of the truth, after alignment")
 
 
-def estimate_of(result, estimates):
-    """The evaluation of the trajectory in this folder: the one of its file, else the only one."""
-    trajectory = (pathlib.Path(result) / "trajectory.tum").resolve()
-    own = [item for item in estimates
-           if pathlib.Path(item.metrics.get("file", "")).resolve() == trajectory]
-    if own:
-        return own[0]
-    return estimates[0] if len(estimates) == 1 else None
+def is_of(estimate, times, positions):
+    """Whether an evaluation is of this trajectory. The name of its file does not tell: a result may
+    have been moved, or written anew."""
+    said = estimate.metrics.get("trajectory") or {}
+    if said.get("begin_s") is None or not len(times):
+        return False
+    with np.errstate(over="ignore", invalid="ignore"):
+        path_m = np.linalg.norm(np.diff(positions, axis=0), axis=1).sum()
+    known_m = np.inf if said.get("path_length_m") is None else said["path_length_m"]
+    # Runs on one recording have the same times, but never the same path to the micrometre.
+    return bool(np.allclose([times[0], times[-1]], [float(said["begin_s"]), float(said["end_s"])],
+                            rtol=0, atol=1e-6)
+                and np.isclose(path_m, known_m, rtol=1e-9, atol=1e-6))
+
+
+def estimate_of(times, positions, estimates):
+    """The evaluation of a trajectory; None if there is none among them."""
+    finite = np.isfinite(times) & np.isfinite(positions).all(axis=1)
+    return next((item for item in estimates if is_of(item, times[finite], positions[finite])), None)

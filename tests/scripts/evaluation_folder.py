@@ -15,8 +15,16 @@ def statistics(errors):
             "min": float(errors.min()), "max": float(errors.max())}
 
 
-def write_evaluation(folder, noise_m, diverged=(), with_rotation=True, poses=400):
-    """`noise_m` maps the names of estimates to the size of their errors."""
+def trajectory_json(result):
+    """What an evaluation says of the trajectory in a folder of trajlo_run."""
+    table = np.loadtxt(pathlib.Path(result) / "trajectory.tum")
+    return {"begin_s": f"{table[0, 0]:.9f}", "end_s": f"{table[-1, 0]:.9f}", "poses": len(table),
+            "path_length_m": float(np.linalg.norm(np.diff(table[:, 1:4], axis=0), axis=1).sum())}
+
+
+def write_evaluation(folder, noise_m, diverged=(), with_rotation=True, poses=400, of=None):
+    """`noise_m` maps the names of estimates to the size of their errors. `of`: the folder of a run
+    whose trajectory they are said to be."""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     random = np.random.default_rng(1)
@@ -40,7 +48,8 @@ def write_evaluation(folder, noise_m, diverged=(), with_rotation=True, poses=400
                              for row in table]
         (folder / f"errors_{name}.csv").write_text("\n".join(lines) + "\n")
         estimates.append({
-            "name": name, "file": f"{name}.tum", "errors_csv": f"errors_{name}.csv",
+            "name": name, "file": f"{name}.tum", "trajectory": trajectory_json(of) if of else None,
+            "errors_csv": f"errors_{name}.csv",
             "diverged": name in diverged,
             "divergence_reason": "the error grew past 100 m" if name in diverged else "",
             "completeness": 1.0, "pairs": poses, "duration_s": 40.0,

@@ -135,11 +135,19 @@ class RunPageTest(FolderTest):
 
     def test_numbers_agree_with_the_evaluation(self):
         write_result(self.folder, seconds=40)
-        write_evaluation(self.folder / "evaluation", {"one": 0.2})
+        write_evaluation(self.folder / "evaluation", {"one": 0.2}, of=self.folder)
         _, estimates = files.read_evaluation(self.folder / "evaluation")
         rmse = estimates[0].metrics["ate"]["translation_m"]["rmse"]
         self.assertIn(f"<dt>{100 * rmse:.1f} cm</dt>",
                       self.draw("--evaluation", self.folder / "evaluation"))
+
+    def test_the_errors_of_another_run_are_left_out_and_that_is_said(self):
+        write_result(self.folder / "other", seconds=20)
+        write_evaluation(self.folder / "evaluation", {"one": 0.2}, of=self.folder / "other")
+        write_result(self.folder)
+        text = self.draw("--evaluation", self.folder / "evaluation")
+        self.assertIn("The evaluation is not of this run&#39;s trajectory", text)
+        self.assertNotIn("Against the truth", text)
 
     def test_points_can_be_fewer_and_not_none(self):
         write_result(self.folder)

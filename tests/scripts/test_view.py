@@ -6,11 +6,11 @@ import unittest
 import zlib
 
 import numpy as np
-from evaluation_folder import write_evaluation
+from evaluation_folder import trajectory_json, write_evaluation
 from result_folder import BEGIN_S, HEIGHT_M, ROOM, on_walls, positions, write_ply, write_result
 from support import FolderTest
 
-from trajlo_report import files, frames, run_data, view, view_arrays, view_cloud, view_path
+from trajlo_report import files, run_data, view, view_arrays, view_cloud, view_path
 
 MAIL_MB = 15
 
@@ -132,7 +132,7 @@ class FrameTest(FolderTest):
         result = write_result(self.folder / "result")
         turned = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
         moved, scale = np.array([100.0, 20, 3]), 1.1
-        estimate = files.Estimate("one", {"file": str(result / "trajectory.tum"), "alignment": {
+        estimate = files.Estimate("one", {"trajectory": trajectory_json(result), "alignment": {
             "T": np.column_stack([turned, moved]).tolist(), "scale": scale}}, {})
         run = run_data.load(result, [estimate])
         np.testing.assert_allclose(
@@ -142,12 +142,28 @@ class FrameTest(FolderTest):
         low = scale * np.array([-ROOM[1, 1], ROOM[0, 0], ROOM[0, 2]]) + moved
         np.testing.assert_allclose(run.cloud.points.min(axis=0), low, atol=1e-3)
 
-    def test_of_several_estimates_the_one_of_this_file_is_taken(self):
-        here = str(self.folder / "trajectory.tum")
-        items = [files.Estimate(name, {"file": file}, {}) for name, file in
-                 (("other", "/elsewhere.tum"), ("own", here))]
-        self.assertEqual(frames.estimate_of(self.folder, items).name, "own")
-        self.assertIsNone(frames.estimate_of(self.folder, [items[0], items[0]]))
+    def test_the_estimate_that_is_this_trajectory_is_taken_and_no_other(self):
+        result = write_result(self.folder / "result")
+        own = trajectory_json(result)
+        others = [{**own, "path_length_m": own["path_length_m"] + 1e-4},
+                  {**own, "end_s": "1700000009.900000000"}, {**own, "path_length_m": None}, None]
+        items = [files.Estimate("other", {"trajectory": other}, {}) for other in others]
+        run = run_data.load(result, items)
+        self.assertIsNone(run.estimate)
+        self.assertIn("The evaluation is not of this run's trajectory", run.missing[0])
+        run = run_data.load(result, [*items, files.Estimate("own", {"trajectory": own}, {})])
+        self.assertEqual((run.estimate.name, run.missing), ("own", []))
+
+    def test_the_evaluation_of_an_estimate_that_exploded_is_found(self):
+        result = write_result(self.folder / "result")
+        own = trajectory_json(result)
+        for line, changed in (("1700000011 nan 2 3 0 0 0 1", {}),
+                              ("1700000012 1e300 2 3 0 0 0 1",
+                               {"end_s": "1700000012.000000000", "path_length_m": None})):
+            text = (result / "trajectory.tum").read_text()
+            (result / "trajectory.tum").write_text(f"{text}{line}\n")
+            estimate = files.Estimate("own", {"trajectory": {**own, **changed}}, {})
+            self.assertIs(run_data.load(result, [estimate]).estimate, estimate)
 
 
 class ViewTest(FolderTest):
@@ -176,7 +192,7 @@ class ViewTest(FolderTest):
     def test_coordinates_of_a_map_projection_keep_their_centimetres(self):
         result = write_result(self.folder / "result")
         far = np.array([691_234.5, 5_334_321.25, 512.0])
-        estimate = files.Estimate("one", {"file": "x", "alignment": {
+        estimate = files.Estimate("one", {"trajectory": trajectory_json(result), "alignment": {
             "T": np.column_stack([np.eye(3), far]).tolist(), "scale": 1.0}}, {})
         page, arrays = self.make(run_data.load(result, [estimate]))
         path = arrays["path_xyz"].reshape(-1, 3).astype(float) + page["origin"]
@@ -185,7 +201,7 @@ class ViewTest(FolderTest):
     def test_the_truth_and_the_errors_are_there_with_an_evaluation(self):
         result = write_result(self.folder / "result", seconds=40)
         _, estimates = files.read_evaluation(write_evaluation(self.folder / "evaluation",
-                                                              {"one": 0.01}))
+                                                              {"one": 0.01}, of=result))
         page, arrays = self.make(run_data.load(result, estimates))
         self.assertEqual([item["key"] for item in page["path"]["quantities"]],
                          ["error", "speed", "inliers", "agreement", "eigenvalue"])

@@ -115,7 +115,7 @@ class ViewRenderingTest(FolderTest):
     def drawn(self, *arguments):
         result = write_result(self.folder / "result", seconds=40, points_per_moment=800,
                               map_points=20000, flags={100: "not_converged", 200: "gap"})
-        write_evaluation(self.folder / "evaluation", {"one": 0.05})
+        write_evaluation(self.folder / "evaluation", {"one": 0.05}, of=result)
         subprocess.run([SCRIPTS / "draw_run.py", result, *arguments], check=True,
                        capture_output=True)
         return result / "run.html"
