@@ -26,6 +26,8 @@ import numpy as np
 import yaml
 from scipy.spatial.transform import Rotation
 
+from trajlo_batch import command_line
+from trajlo_batch.places import programs_in
 from trajlo_campaign import point_arrays
 
 SCENARIOS = ("office_os0_64", "hall_os1_16", "courtyard_os1_16", "corridor_vlp16", "forest_mid360",
@@ -158,7 +160,7 @@ def main():
         return
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
+    command_line.add_build_argument(parser)
     parser.add_argument("--output", type=pathlib.Path, required=True)
     parser.add_argument("--seeds", type=int, nargs="+", default=[1])
     parser.add_argument("--scenarios", nargs="+", default=SCENARIOS,
@@ -166,7 +168,7 @@ def main():
     parser.add_argument("--kiss_icp_voxel_m", type=float, default=0.0,
                         help="in place of KISS-ICP's default")
     arguments = parser.parse_args()
-    programs = arguments.build.resolve() / "apps"
+    programs = programs_in(arguments.build.resolve())
     peers = [name for name in PEERS if importlib.util.find_spec(name)]
     if not peers:
         parser.error(f"{sys.executable} can import none of {', '.join(PEERS)}; see --help")

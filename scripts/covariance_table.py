@@ -17,7 +17,8 @@ import sys
 import numpy as np
 
 import check_covariance
-from trajlo_batch.places import read_json_if
+from trajlo_batch import command_line
+from trajlo_batch.places import programs_in, read_json_if
 from trajlo_batch.results import dig
 
 SCENARIOS = ("hall_os1_16", "courtyard_os1_16", "office_os0_64", "facade_os1_16", "corridor_vlp16",
@@ -72,7 +73,7 @@ def print_table(rows, aparts):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
+    command_line.add_build_argument(parser)
     parser.add_argument("--output", type=pathlib.Path, required=True)
     parser.add_argument("--seeds", type=int, default=2, help="of each scene and kind")
     parser.add_argument("--scenarios", nargs="+", default=SCENARIOS)
@@ -86,7 +87,7 @@ def main():
             for seed in range(first_seed, first_seed + arguments.seeds):
                 folder = arguments.output / kind.replace(" ", "_") / f"{scenario}-s{seed}"
                 folder.mkdir(parents=True, exist_ok=True)
-                make_run(arguments.build / "apps", folder, scenario, kind, seed)
+                make_run(programs_in(arguments.build), folder, scenario, kind, seed)
                 folders.append(folder)
             rows.append((scenario, kind,
                          [np.mean([ratios_of(folder, apart) for folder in folders], axis=0)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the preparation of data sets shares: find what was downloaded, check it, link it to where
 config/suites expect it. Nothing is downloaded, copied or changed."""
-import argparse
 import dataclasses
 import json
 import os
@@ -9,9 +8,9 @@ import pathlib
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-IN_SOURCES = (ROOT / "CMakeLists.txt").is_file()
-PROGRAMS = ROOT / "build" / "apps" if IN_SOURCES else ROOT.parents[1] / "bin"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from trajlo_batch import command_line  # noqa: E402
+from trajlo_batch.places import programs_in  # noqa: E402
 
 EXIT_CODES = """Exit codes: 0 everything is there, 1 wrong usage, 2 nothing was found, 3 some is
 missing or unfit (the rest is laid out), 5 a link or file cannot be written."""
@@ -152,25 +151,22 @@ def lay_out(items, downloads, data, programs, after=None):
 
 def main(description, items, after=None, remarks=""):
     """The command of one data set. `description` says where it is had and how it is laid out."""
-    parser = argparse.ArgumentParser(description=f"{description}\n\n{EXIT_CODES}",
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.error = lambda message: (print(f"{parser.prog}: {message}", file=sys.stderr),
-                                    sys.exit(1))
+    parser = command_line.Parser(description=f"{description}\n\n{EXIT_CODES}")
     parser.add_argument("downloads", nargs="?", type=pathlib.Path,
                         help="the folder with what you downloaded, unpacked")
     parser.add_argument("--into", type=pathlib.Path, metavar="DATA",
                         help="the folder of data sets in which links are made "
                              "(scripts/batch --data=DATA); without it files are only checked")
-    parser.add_argument("--build", type=pathlib.Path, help="where the project is built")
+    command_line.add_build_argument(parser)
     arguments = parser.parse_args()
     if arguments.downloads is None:
         print(description)
         return 0
     if not arguments.downloads.is_dir():
         parser.error(f"there is no folder {arguments.downloads}")
-    programs = arguments.build / "apps" if arguments.build else PROGRAMS
     try:
-        code = lay_out(items, arguments.downloads, arguments.into, programs, after)
+        code = lay_out(items, arguments.downloads, arguments.into, programs_in(arguments.build),
+                       after)
     except Unwritable as error:
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 5

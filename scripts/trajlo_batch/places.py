@@ -18,6 +18,10 @@ BUILD = ROOT.parents[1] if INSTALLED else ROOT / "build"
 WORK = pathlib.Path.cwd() if INSTALLED else ROOT
 
 
+def programs_in(build):
+    return build / ("bin" if INSTALLED else "apps")
+
+
 @dataclasses.dataclass(frozen=True)
 class Places:
     build: pathlib.Path   # holds apps/trajlo_run and the others, an installation bin/trajlo_run
@@ -25,7 +29,7 @@ class Places:
     output: pathlib.Path
 
     def program(self, name):
-        return self.build / ("bin" if INSTALLED else "apps") / name
+        return programs_in(self.build) / name
 
     def find(self, path, base=ROOT):
         """A path of a suite: relative ones are below `base`, and $VARIABLES are filled in."""

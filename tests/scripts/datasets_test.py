@@ -170,6 +170,14 @@ class DatasetsTest(unittest.TestCase):
         self.assertIn("ok      ntu_viral/eee_01/eee_01.bag", text)
         self.assertTrue((self.data / "ntu_viral/eee_01/truth.tum").is_file())
 
+    def test_the_build_is_the_one_that_the_environment_names(self):
+        self.write_bag("pendulum.bag", [("/livox/lidar", "livox_ros_driver/CustomMsg")])
+        done = subprocess.run(
+            [sys.executable, "-B", str(SCRIPTS / "pointlio"), str(self.downloads)],
+            capture_output=True, text=True, check=False,
+            env={**os.environ, "TRAJLO_BUILD_DIR": str(self.folder / "build")})
+        self.assertIn("ok      pointlio/indoor_swing.bag", done.stdout)
+
     def test_something_else_in_the_place_is_left_alone(self):
         self.write("swing.bag")
         self.write_bag("swing.bag", [("/livox/lidar", "livox_ros_driver/CustomMsg")])

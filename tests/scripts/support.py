@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import stat
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -49,6 +50,15 @@ class FolderTest(unittest.TestCase):
             self.executable(f"build/apps/{name}", PRETENDED.format(name=name))
         self.executable("build/apps/trajlo_run", PRETENDED_RUN.format(digest=digest))
         return self.folder / "build"
+
+    def called_in_build_dir(self, script, program, *arguments, **more):
+        """Whether a script calls a program of the build that TRAJLO_BUILD_DIR names."""
+        called = self.folder / "called.txt"
+        self.executable(f"named/apps/{program}", f"#!/bin/sh\ntouch '{called}'\nexit 1\n")
+        subprocess.run([sys.executable, "-B", SCRIPTS / script, *arguments], capture_output=True,
+                       check=False, cwd=self.folder,
+                       env={**os.environ, "TRAJLO_BUILD_DIR": str(self.folder / "named"), **more})
+        return called.exists()
 
     def executable(self, name, text):
         path = self.write(name, text)

@@ -57,6 +57,11 @@ class ComparePeersTest(FolderTest):
         self.assertEqual(points.tolist(), [[1, 2, 3], [4, 5, 6]])
         self.assertTrue(np.allclose(times_s, [0.0, 0.03], atol=1e-7))
 
+    def test_the_build_is_the_one_that_the_environment_names(self):
+        self.write("peers/kiss_icp.py", "")
+        self.assertTrue(self.called_in_build_dir("compare_peers.py", "trajlo_simulate",
+                                                 "--output=out", PYTHONPATH=self.folder / "peers"))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -48,6 +48,10 @@ class MakeRunTest(FolderTest):
         self.write("result/run.json", '{"exit": ')
         self.assertEqual(self.calls(), ["trajlo_simulate", "trajlo_run"])
 
+    def test_the_build_is_the_one_that_the_environment_names(self):
+        self.assertTrue(self.called_in_build_dir("covariance_table.py", "trajlo_simulate",
+                                                 "--output=out"))
+
 
 if __name__ == "__main__":
     unittest.main()
