@@ -26,22 +26,10 @@ import numpy as np
 from scipy import stats
 from scipy.spatial.transform import Rotation, Slerp
 
+from trajlo_report import files
+
 PARTS = {"pose": slice(0, 6), "translation": slice(0, 3), "rotation": slice(3, 6)}
 STEP_S = 0.05
-
-
-def read_poses(path):
-    """Times from the first pose on (s, exact to the nanosecond), positions, rotations."""
-    rows = [line.split() for line in pathlib.Path(path).read_text().splitlines()
-            if line and not line.startswith("#")]
-    seconds = np.array([int(row[0].split(".")[0]) for row in rows])
-    fractions = np.array([float("0." + row[0].split(".")[1]) for row in rows])
-    values = np.array([[float(value) for value in row[1:8]] for row in rows])
-    return seconds, fractions, values[:, :3], Rotation.from_quat(values[:, 3:])
-
-
-def relative(seconds, fractions, zero):
-    return (seconds - zero[0]) + (fractions - zero[1])
 
 
 def se3_log(rotations, translations):
@@ -68,11 +56,10 @@ def adjoints(rotations, translations):
 
 def read_run(result, truth_file):
     """Times since the start, estimated poses, covariances, and the true poses at these times."""
-    seconds, fractions, positions, rotations = read_poses(result / "trajectory.tum")
-    zero = (seconds[0], fractions[0])
-    times = relative(seconds, fractions, zero)
-    t_seconds, t_fractions, t_positions, t_rotations = read_poses(truth_file)
-    t_times = relative(t_seconds, t_fractions, zero)
+    times_ns, positions, quaternions = files.read_tum(result / "trajectory.tum")
+    t_times_ns, t_positions, t_quaternions = files.read_tum(truth_file)
+    rotations, t_rotations = Rotation.from_quat(quaternions), Rotation.from_quat(t_quaternions)
+    times, t_times = (times_ns - times_ns[0]) * 1e-9, (t_times_ns - times_ns[0]) * 1e-9
     inside = (times >= t_times[0]) & (times <= t_times[-1])
     # The first pose defines the world; nobody has estimated it.
     inside[0] = False

@@ -9,7 +9,8 @@ import numpy as np
 
 from trajlo_campaign.execute import HUNG
 from trajlo_campaign.flags import flagged_times_ns, near_a_flag
-from trajlo_campaign.truth import Truth, errors_by_pose, read_tum
+from trajlo_campaign.truth import Truth, errors_by_pose
+from trajlo_report.files import read_tum
 
 WELL, FLAGGED, LOST, PARTIAL, REFUSED = "well", "flagged", "lost", "partial", "refused"
 CARRIED = "wrong after a flag"

@@ -8,6 +8,7 @@ import time
 import numpy as np
 
 from trajlo_campaign import truth
+from trajlo_report.files import read_tum
 
 SAMPLE_S = 0.5
 # The trajectory is the result, and no leak: a pose takes 104 bytes of memory until the run is over,
@@ -69,13 +70,13 @@ def read_sparsely(path, every):
         for number, line in enumerate(source):
             if number % every == 0:
                 target.write(line)
-    return truth.read_tum(beside)
+    return read_tum(beside)
 
 
 def trajectory_errors(trajectory, truth_file):
     """Errors of all poses, and how far the last one's stamp is from the end of the truth, in s."""
     reference = truth.Truth(*read_sparsely(truth_file, 10))
-    poses = truth.read_tum(trajectory)
+    poses = read_tum(trajectory)
     errors = truth.errors_by_pose(reference, poses, [0], np.ones(len(poses[0]), dtype=bool))
     return errors.position_m, float((poses[0][-1] - reference.times_ns[-1]) * 1e-9)
 

@@ -1,28 +1,14 @@
 # SPDX-License-Identifier: MIT
 """How far the poses of a run are from the truth, one by one."""
 import dataclasses
-import pathlib
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from trajlo_report.files import read_tum
+
 ANCHOR_POSES = 10
 NO_TRUTH_REACH_S = 0.3  # poses farther from all truth have an infinite error
-
-
-def read_tum(path):
-    """Times in whole ns, positions, quaternions. An unfinished last line is left out."""
-    times, values = [], []
-    for line in pathlib.Path(path).read_text(errors="replace").splitlines():
-        fields = line.split()
-        if len(fields) == 8 and not line.startswith("#"):
-            seconds, _, fraction = fields[0].partition(".")
-            whole = int(seconds) * 1_000_000_000
-            part = int(fraction.ljust(9, "0")[:9])
-            times.append(whole - part if fields[0].startswith("-") else whole + part)
-            values.append([float(field) for field in fields[1:]])
-    values = np.array(values).reshape(-1, 7)
-    return np.array(times, dtype=np.int64), values[:, :3], values[:, 3:]
 
 
 @dataclasses.dataclass(frozen=True)

@@ -99,6 +99,6 @@ def since_begin(folder, item):
     at = item["free"].get("parts_at_s")
     if at is None:
         return None
-    times, _ = files.read_tum(pathlib.Path(folder) / item["free"]["trajectory"])
+    times, _, _ = files.read_poses(pathlib.Path(folder) / item["free"]["trajectory"])
     # The begin is not worth more digits than the time of a pose.
     return max(float(at) - times[0], 0.0)

@@ -2,6 +2,7 @@
 """Reads what trajlo_run and trajlo_evaluate write, and writes pages."""
 import csv
 import dataclasses
+import decimal
 import json
 import os
 import pathlib
@@ -22,23 +23,26 @@ def write_atomically(path, text):
     beside.replace(path)
 
 
-def read_poses(path):
-    """Times (s), positions (m) and quaternions (x y z w) of a TUM file; an unfinished last line is
-    left out."""
-    rows = []
-    for line in pathlib.Path(path).read_text().splitlines():
-        values = line.split()
-        if len(values) == 8 and not line.startswith("#"):
-            rows.append([float(value) for value in values])
-    if not rows:
-        raise ReportError(f"{path} holds no poses")
-    rows = np.array(rows)
-    return rows[:, 0], rows[:, 1:4], rows[:, 4:]
-
-
 def read_tum(path):
-    """Times (s) and positions (m) of a TUM file."""
-    return read_poses(path)[:2]
+    """Times in whole ns, positions (m) and quaternions (x y z w) of a TUM file; an unfinished last
+    line is left out."""
+    times_ns, values = [], []
+    for line in pathlib.Path(path).read_text(errors="replace").splitlines():
+        fields = line.split()
+        if len(fields) == 8 and not line.startswith("#"):
+            # Stamps since 1970 have more digits than a float.
+            times_ns.append(round(decimal.Decimal(fields[0]).scaleb(9)))
+            values.append([float(field) for field in fields[1:]])
+    values = np.array(values).reshape(-1, 7)
+    return np.array(times_ns, dtype=np.int64), values[:, :3], values[:, 3:]
+
+
+def read_poses(path):
+    """The same with times in s. Throws ReportError where there are no poses."""
+    times_ns, positions, quaternions = read_tum(path)
+    if not len(times_ns):
+        raise ReportError(f"{path} holds no poses")
+    return times_ns / 1e9, positions, quaternions
 
 
 def read_ply_columns(path):

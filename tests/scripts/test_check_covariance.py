@@ -18,7 +18,7 @@ SIGMAS = [0.02, 0.03, 0.01, 0.004, 0.002, 0.005]
 
 @unittest.skipIf(np is None, "python3-numpy and python3-scipy are not installed")
 class CheckCovarianceTest(FolderTest):
-    def make_run(self, seed, factor, place=None):
+    def make_run(self, seed, factor, place=None, start_s=START_S):
         """A body that moves at constant speed; its errors squared are `factor` times as large as
         its covariance says. The whole estimate is moved to `place`."""
         random = np.random.default_rng(seed)
@@ -31,7 +31,8 @@ class CheckCovarianceTest(FolderTest):
             true_r = Rotation.from_rotvec([0.0, 0.0, 0.1 * i])
             r = true_r * Rotation.from_rotvec(-error[3:])
             t = true_t - true_r.apply(left_jacobian(-error[3:]) @ error[:3])
-            stamp = f"{START_S + i // 10}.{i % 10}00000000"
+            tenths = 10 * start_s + i
+            stamp = f"{'-' if tenths < 0 else ''}{abs(tenths) // 10}.{abs(tenths) % 10}00000000"
             truth.append(" ".join([stamp, *map(repr, map(float, [*true_t, *true_r.as_quat()]))]))
             estimate.append(" ".join([stamp, *map(repr, map(float, [*t, *r.as_quat()]))]))
             if place is not None:
@@ -72,6 +73,11 @@ class CheckCovarianceTest(FolderTest):
         here = self.check([self.make_run(1, 1.0)])
         there = self.check([self.make_run(1, 1.0, Rotation.from_rotvec([0.3, -0.2, 0.5]))])
         self.assertAlmostEqual(self.factor_of(here), self.factor_of(there), places=6)
+
+    def test_when_a_run_was_made_does_not_matter(self):
+        here = self.check([self.make_run(1, 1.0)])
+        before_zero = self.check([self.make_run(1, 1.0, start_s=-2)])
+        self.assertEqual(before_zero.stdout, here.stdout)
 
     def test_runs_that_are_too_short_are_refused(self):
         done = self.check([self.make_run(1, 1.0)], "--apart=5")
