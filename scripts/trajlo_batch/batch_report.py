@@ -4,7 +4,7 @@ from trajlo_batch import results, table_formats, tables
 from trajlo_batch.places import ROOT
 from trajlo_batch.published import read_published
 from trajlo_report import page
-from trajlo_report.files import write_atomically
+from trajlo_report.files import to_csv, write_atomically
 
 # What the page shows of a run's figures, in this order.
 FIGURES = {"map": "map and path from above, from the front and from the side",
@@ -78,7 +78,7 @@ def write_report(plan, asked=None):
     if not plan.runs:
         return []
     rows = results.collect(plan, asked)
-    write_atomically(output / "results.csv", results.to_csv(rows))
+    write_atomically(output / "results.csv", to_csv(rows))
     found = make_tables(suite, rows)
     write_tables(output, found)
     programs = [(name, f"{program['version']} ({program['digest']})")

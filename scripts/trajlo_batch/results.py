@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What came out of a batch: a row a run, with the options that vary, metrics, time and how it
 ended."""
-import csv
-import io
 import shlex
 
 import yaml
@@ -145,17 +143,3 @@ def rerun_command(plan, run, status, again=""):
         return shlex.join(command)
     job = {"recording": run.job["recording"], "program": plan.programs["trajlo_simulate"]}
     return f"{shlex.join(simulate_command(job, recording))} && {shlex.join(command)}"
-
-
-def cell(value):
-    if isinstance(value, float):
-        return f"{value:.9g}"
-    return "" if value is None else str(value)
-
-
-def to_csv(rows):
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(rows[0])
-    writer.writerows([cell(value) for value in row.values()] for row in rows)
-    return stream.getvalue()

@@ -2,28 +2,14 @@
 """The table, results.csv and the page of a campaign."""
 import collections
 import csv
-import io
 
 from trajlo_campaign import judge
 from trajlo_campaign.scenes import CampaignError
 from trajlo_report import page
-from trajlo_report.files import write_atomically
+from trajlo_report.files import to_csv, write_atomically
 
 NUMBERS = ("run", "seed", "limit_m", "error_m", "end_error_m", "poses", "poses_wrong",
            "poses_flagged", "covered", "first_wrong_s", "cpu_s", "memory_mb")
-
-
-def cell(value):
-    return f"{value:.6g}" if isinstance(value, float) else "" if value is None else str(value)
-
-
-def to_csv(rows):
-    stream = io.StringIO()
-    writer = csv.writer(stream, lineterminator="\n")
-    if rows:
-        writer.writerow(rows[0])
-    writer.writerows([cell(value) for value in row.values()] for row in rows)
-    return stream.getvalue()
 
 
 def number(text):

@@ -8,7 +8,7 @@ from trajlo_batch.batch_report import summary
 from trajlo_experiment import analysis, conclusion, figures, figures_tradeoff, table
 from trajlo_experiment.findings import Findings, level_text
 from trajlo_report import page
-from trajlo_report.files import write_atomically
+from trajlo_report.files import to_csv, write_atomically
 
 BEST = 12  # settings of the table
 NUMBER = re.compile(r"\b\d+(\.\d+)?(e[+-]\d+)?(?= (m|s|%|°))")
@@ -97,7 +97,7 @@ def write_report(plan):
         return []
     rows = table.collect(plan)
     output.mkdir(parents=True, exist_ok=True)
-    write_atomically(output / "results.csv", results.to_csv(rows))
+    write_atomically(output / "results.csv", to_csv(rows))
     findings = Findings(study, rows)
     drawn = figures.draw_all(findings, output / "figures") if findings.rows else []
     programs = [(name, f"{program['version']} ({program['digest']})")

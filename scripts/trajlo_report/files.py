@@ -3,6 +3,7 @@
 import csv
 import dataclasses
 import decimal
+import io
 import json
 import os
 import pathlib
@@ -65,6 +66,19 @@ def read_ply(path):
     """Points of such a PLY, a row each."""
     columns = read_ply_columns(path)
     return np.stack([columns[axis] for axis in "xyz"], axis=1)
+
+
+def to_csv(rows):
+    """Mappings with the same keys as text, a line each below the names."""
+    def cell(value):
+        return f"{value:.9g}" if isinstance(value, float) else "" if value is None else str(value)
+
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    if rows:
+        writer.writerow(rows[0])
+    writer.writerows([cell(value) for value in row.values()] for row in rows)
+    return stream.getvalue()
 
 
 def read_columns(path):

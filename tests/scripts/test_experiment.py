@@ -10,10 +10,11 @@ import unittest
 from pretended_experiment import PretendedTest
 from support import ROOT, SCRIPTS
 
-from trajlo_batch import plan, results
+from trajlo_batch import plan
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_experiment import table
 from trajlo_experiment.experiment import read_experiment
+from trajlo_report import files
 
 SMALL = """
 design: {kind: grid}
@@ -161,7 +162,7 @@ class TableTest(PretendedTest):
         self.assertEqual(rows[0].keys(), rows[1].keys())
 
     def test_the_csv_file_has_a_line_a_run(self):
-        lines = list(csv.DictReader(io.StringIO(results.to_csv(self.rows()))))
+        lines = list(csv.DictReader(io.StringIO(files.to_csv(self.rows()))))
         self.assertEqual([line["row"] for line in lines], [str(i) for i in range(1, 11)])
 
     def test_the_command_of_a_row_runs_and_evaluates_in_a_folder_of_its_own(self):

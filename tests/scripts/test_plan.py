@@ -12,6 +12,7 @@ from trajlo_batch.places import Places
 from trajlo_batch.progress import ProgressBar
 from trajlo_batch.suite import read_suite
 from trajlo_batch.yaml_lines import SuiteError
+from trajlo_report import files
 
 SUITE = """
 sequences:
@@ -178,7 +179,7 @@ class ResultsTest(PlannedTest):
         self.assertEqual([row["window.segments"] for row in results.collect(batch)], [4, 3])
 
     def test_csv_has_a_line_a_run(self):
-        lines = results.to_csv(results.collect(self.plan())).splitlines()
+        lines = files.to_csv(results.collect(self.plan())).splitlines()
         self.assertEqual(len(lines), 3)
         self.assertTrue(lines[0].startswith("suite,configuration,sequence,group,seed,degenerate,"))
 
