@@ -4,6 +4,7 @@ import dataclasses
 import pathlib
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from trajlo_report import files, view_cloud, view_path
 from trajlo_report.frames import Frame, estimate_of, frame_of
@@ -30,25 +31,17 @@ class RunData:
         return self.estimate is not None and len(self.estimate.errors.get("t_s", ())) > 1
 
 
-def rotation_matrices(quaternions):
-    """N x 3 x 3 of N x (x y z w)."""
-    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
-    return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
-                     2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
-                     2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-                    axis=1).reshape(-1, 3, 3)
-
-
 def drawable(times, positions, quaternions, missing):
     """Without poses of an estimate that exploded; `missing` is told of them."""
     with np.errstate(over="ignore", invalid="ignore"):
         near = np.linalg.norm(positions - positions[0], axis=1) < view_cloud.FARTHEST_M
+        near &= np.linalg.norm(quaternions, axis=1) > 0
     if not near.any():
         raise files.ReportError("The trajectory has no pose that can be drawn")
     if not near.all():
         far_km = view_cloud.FARTHEST_M / 1000
         missing.append(f"{np.count_nonzero(~near)} poses lie more than {far_km:.0f} km from the "
-                       "start or nowhere, and are not drawn.")
+                       "start or nowhere, or have no rotation, and are not drawn.")
     return times[near], positions[near], quaternions[near]
 
 
@@ -73,6 +66,7 @@ def load(result, estimates=(), budget=view_cloud.BUDGET):
     windows = {}
     if (result / "windows.csv").is_file():
         windows = files.read_columns(result / "windows.csv")
-    return RunData(times, frame.place(positions), frame.turn(rotation_matrices(quaternions)),
-                   windows, cloud, frame, estimate,
-                   view_path.flagged_stretches(*files.read_flags(result), times[0]), missing)
+    rotations = Rotation.from_quat(quaternions).as_matrix()
+    flags = view_path.flagged_stretches(*files.read_flags(result), times[0])
+    return RunData(times, frame.place(positions), frame.turn(rotations), windows, cloud, frame,
+                   estimate, flags, missing)

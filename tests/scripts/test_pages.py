@@ -175,14 +175,15 @@ class RunPageTest(FolderTest):
     def test_an_estimate_that_exploded_does_not_take_the_page_along(self):
         result = write_result(self.folder)
         poses = (result / "trajectory.tum").read_text().splitlines()
-        poses += ["1700000011 1e300 2 3 0 0 0 1", "1700000012 nan 2 3 0 0 0 1"]
+        poses += ["1700000011 1e300 2 3 0 0 0 1", "1700000012 nan 2 3 0 0 0 1",
+                  "1700000013 1 2 3 0 0 0 0"]
         (result / "trajectory.tum").write_text("\n".join(poses) + "\n")
         points = on_walls(np.random.default_rng(1), 500)
         points[::7] = np.inf
         write_ply(result / "view.ply", {
             **dict(zip("xyz", points.T)), "intensity": np.zeros(500), "t_s": np.zeros(500)},
             f"comment begin_s {BEGIN_S:.9f}")
-        self.assertIn("2 poses lie more than 1000 km from the start", self.draw())
+        self.assertIn("3 poses lie more than 1000 km from the start", self.draw())
 
     def test_what_made_a_run_fail_stands_on_top(self):
         lost = {"exit": {"code": 4, "reason": "lost", "message": "lost at 1700000003.5 s"},
