@@ -180,6 +180,7 @@ void Odometry::Watch(WindowStatistics* statistics) {
   if (inlier_watch_.HasFew(*statistics)) {
     statistics->flags |= kFlagFewInliers;
     // That takes time to show: it holds for all poses that are still here.
+    if (first_pose_) first_pose_->flags |= kFlagFewInliers;
     window_.begin_flags |= kFlagFewInliers;
     for (Segment& segment : window_.segments) segment.flags |= kFlagFewInliers;
   }

@@ -73,7 +73,7 @@ bool LidarTrack::ComesFromBehind(std::size_t i) const {
     const std::int64_t step_ns = Difference(held_[i]->times.begin_ns, before.times.begin_ns);
     if (!clock_.IsPeriod(step_ns)) return false;
     const bool is_taken = memory_.HasTime(PlaceOf(before).begin_ns, clock_.period_ns() / 2);
-    if (Ahead(before) <= 0 && is_taken && !memory_.HasPoints(before.scan)) return true;
+    if (IsBehind(before) && is_taken && !memory_.HasPoints(before.scan)) return true;
   }
   return false;
 }
@@ -92,6 +92,12 @@ void LidarTrack::Judge(const Others& others, bool is_final) {
 
 std::int64_t LidarTrack::Ahead(const HeldScan& held) const {
   return Difference(PlaceOf(held).begin_ns, clock_.last().begin_ns);
+}
+
+/// Whether the scan begins before the last one, or so soon behind its begin that nearly all of the
+/// sweep would have been measured twice: a clock that stepped back by a sweep leaves it there.
+bool LidarTrack::IsBehind(const HeldScan& held) const {
+  return Ahead(held) <= Difference(held.times.end_ns, held.times.begin_ns) / 10;
 }
 
 bool LidarTrack::IsPlausibleStep(const HeldScan& from, const HeldScan& to) const {
@@ -172,7 +178,7 @@ std::size_t LidarTrack::FindAnchor(const Others& others, bool is_final) const {
     is_other_clock = false;
     if (ChainLength(i) < confirm || ComesFromBehind(i)) continue;
     if (IsSameClock(i, others)) return InStep(i);
-    is_other_clock = Ahead(*held_[i]) > 0;
+    is_other_clock = !IsBehind(*held_[i]);
   }
   if (!is_final) return held_.size();
   // The last scan may come a little late, but behind a pause its stamp may be wrong.

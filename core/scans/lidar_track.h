@@ -130,6 +130,7 @@ class LidarTrack {
   /// How far the scan lies behind the last that was handed on.
   std::int64_t Ahead(const HeldScan& held) const;
   double PeriodsAhead(const HeldScan& held) const;
+  bool IsBehind(const HeldScan& held) const;
   bool IsPlausibleStep(const HeldScan& from, const HeldScan& to) const;
   /// How many scans, from this one on, go on from each other.
   std::size_t ChainLength(std::size_t first) const;

@@ -35,8 +35,8 @@ bool LidarTrack::IsBackOnTime(const HeldScan& held) const {
 }
 
 bool LidarTrack::IsSameClock(std::size_t i, const Others& others) const {
+  if (IsBehind(*held_[i]) || IsBackOnTime(*held_[i])) return false;
   const std::int64_t ahead_ns = Ahead(*held_[i]);
-  if (ahead_ns <= 0 || IsBackOnTime(*held_[i])) return false;
   // Times of recording do not tell of so little time. Where there are other LiDARs, the views of
   // one alone are not asked.
   if (ahead_ns <= clock_.longest_step_ns()) return !others.started.empty() || !IsNextByView(i);

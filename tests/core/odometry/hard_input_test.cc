@@ -173,6 +173,19 @@ TEST(Odometry, FlagsPosesAtOnceIfItWouldBeLostWereItToGoOn) {
   }
 }
 
+TEST(Odometry, FlagsTheFirstPoseTooIfNothingAgreesWithTheFirstInterval) {
+  SyntheticWorld world;
+  // Behind the first interval of 0.3 s, all is another world at every scan.
+  const RunResult run = RunOn(world, RoomOptions(), 12, [&](int i, LidarScan* scan) {
+    Random random(static_cast<unsigned>(i));
+    for (LidarPoint& point : scan->points) {
+      if (i >= 3) point.xyz_m = random.Vector(20, 90).cast<float>();
+    }
+  });
+  ASSERT_FALSE(run.odometry->trajectory().empty());
+  EXPECT_NE(run.odometry->trajectory().poses().front().flags & kFlagFewInliers, 0U);
+}
+
 TEST(Odometry, NothingAndOneScanAreValidRecordings) {
   SyntheticWorld world;
   Odometry nothing(RoomOptions());

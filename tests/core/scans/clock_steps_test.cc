@@ -20,7 +20,9 @@ TEST(ScanSequencer, TwoWrongStampsInARowAreNoStepOfTheClock) {
 }
 
 TEST(ScanSequencer, FollowsAStepOfTheClockThatLasts) {
-  for (const std::int64_t step : {kHour, -kHour, -2 * kSecond, -3 * kPeriod, 30 * kDay, -kStart}) {
+  // Back by a little less than a period, the first scan behind the step still lies ahead.
+  for (const std::int64_t step : {kHour, -kHour, -2 * kSecond, -3 * kPeriod, -kPeriod + kMs,
+                                  -kPeriod + 5 * kMs, 30 * kDay, -kStart}) {
     for (const int at : {5, 20, 33}) {
       std::vector<std::int64_t> stamps = Regular(40);
       for (std::size_t i = static_cast<std::size_t>(at); i < 40; ++i) stamps[i] += step;
