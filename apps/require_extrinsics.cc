@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "apps/require_extrinsics.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "apps/usage_error.h"
+#include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
 
 namespace trajlo {
@@ -41,6 +43,11 @@ void RequireOptionsOfEachLidar(const std::vector<std::string>& inputs,
   RequireOneForEach("input.time_origin", options.time_origin, lidars);
   RequireOneForEach("input.stamp_at", options.stamp_at, lidars);
   RequireOneForEach("input.clock_offset_s", options.clock_offset_s, lidars);
+  if (!options.stamps_file.empty() && std::any_of(inputs.begin(), inputs.end(), HoldsClouds)) {
+    throw UsageError(
+        "input.stamps_file is for folders of scans; a recording with messages has the "
+        "stamps of these");
+  }
   if (!options.stamps_file.empty() && lidars > 1) {
     throw UsageError("input.stamps_file: " + Count(lidars) +
                      ", and one file cannot have the stamps of all; put a timestamps.txt into each "

@@ -14,7 +14,7 @@ namespace trajlo {
 void RequireExtrinsics(const std::vector<std::string>& inputs, const RunConfig& config);
 
 /// Throws UsageError if an option of `input` that can be a list has neither one value nor one for
-/// each LiDAR that is read, or if one file of stamps is given for several folders.
+/// each LiDAR that is read, or if a file of stamps is given for several folders, or for messages.
 void RequireOptionsOfEachLidar(const std::vector<std::string>& inputs,
                                const RecordingOptions& options);
 

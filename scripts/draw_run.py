@@ -105,6 +105,8 @@ def main():
     output = arguments.output or arguments.result
     if not arguments.result.is_dir():
         sys.exit(f"draw_run.py: {arguments.result} is not a folder")
+    if not any((arguments.result / name).is_file() for name in ("run.json", "trajectory.tum")):
+        sys.exit(f"draw_run.py: {arguments.result} holds no result of trajlo_run (run.json)")
     if arguments.points < 1:
         parser.error("--points must be at least 1")
     try:

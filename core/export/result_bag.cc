@@ -95,13 +95,22 @@ void ResultBag::WritePosesUntil(std::int64_t t_ns) {
   }
 }
 
+/// Covariances are of control poses; a pose between two of them is about as certain.
+const Matrix6d& ResultBag::NearestCovariance(std::int64_t t_ns) const {
+  const auto after = result_.covariances.lower_bound(t_ns);
+  if (after == result_.covariances.begin()) return after->second;
+  const auto before = std::prev(after);
+  const bool is_before =
+      after == result_.covariances.end() || t_ns - before->first < after->first - t_ns;
+  return is_before ? before->second : after->second;
+}
+
 void ResultBag::WritePose(std::size_t index) {
   const std::vector<ControlPose>& poses = result_.trajectory.poses();
   const ControlPose& pose = poses[index];
   OdometryState state;
   state.T_world_body = pose.T_world_body;
-  const auto covariance = result_.covariances.find(pose.t_ns);
-  if (covariance != result_.covariances.end()) state.covariance = covariance->second;
+  if (!result_.covariances.empty()) state.covariance = NearestCovariance(pose.t_ns);
   const double max_gap_s = result_.config.odometry.segmenter.max_gap_s;
   if (index > 0) {
     const ControlPose& before = poses[index - 1];

@@ -51,6 +51,7 @@ class ResultBag {
   void WriteStaticFrames(std::size_t lidars);
   void WritePath();
   void WritePosesUntil(std::int64_t t_ns);
+  const Matrix6d& NearestCovariance(std::int64_t t_ns) const;
   void WritePose(std::size_t index);
   void WriteTransform(std::int64_t t_ns, const SE3& T_world_body);
   std::int64_t begin_ns() const { return result_.trajectory.poses().front().t_ns; }

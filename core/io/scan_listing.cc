@@ -141,6 +141,10 @@ ScanListing ListScans(const fs::path& path) {
     throw InputError(path, "there is no such file or folder", "Check the path.");
   }
   if (!fs::is_directory(path, error)) throw InputError(path, "this is not a folder", kMend);
+  if (fs::exists(path / "run.json", error) && fs::exists(path / "trajectory.tum", error)) {
+    throw InputError(path, "this is a result of trajlo_run, not a recording",
+                     "trajlo_convert turns it into other formats.");
+  }
 
   std::vector<fs::path> known;
   for (const char* name : kKnownFolders) {

@@ -8,6 +8,8 @@ namespace trajlo {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
+/// What less data takes says nothing of a second.
+constexpr std::int64_t kShortest_ns = kSecond / 2;
 
 }  // namespace
 
@@ -28,7 +30,8 @@ void ProcessingTime::Add(std::int64_t t_ns, double milliseconds) {
 ProcessingTime::Quantiles ProcessingTime::PerSecondOfData(std::int64_t end_ns) const {
   if (samples_.empty()) return {};
   const std::int64_t begin_ns = samples_.front().t_ns;
-  const std::int64_t duration_ns = std::max<std::int64_t>(end_ns - begin_ns, 1);
+  const std::int64_t duration_ns = end_ns - begin_ns;
+  if (duration_ns < kShortest_ns) return {};
   const std::int64_t bins = std::max<std::int64_t>((duration_ns + kSecond / 2) / kSecond, 1);
   // A map, as a recording with a pause of years has years of empty seconds: they count as nothing.
   std::map<std::int64_t, double> milliseconds;

@@ -175,7 +175,10 @@ void ScanSequencer::Release() {
 void ScanSequencer::Hand(const LidarScan& scan, std::int64_t arrival) {
   handed_on_arrival_ = arrival;
   if (!has_pose_) {
-    before_pose_[static_cast<std::size_t>(scan.lidar_id)].push_back({scan.stamp_ns, arrival});
+    // The stamp may mark the end of the sweep.
+    std::int64_t begin_ns = scan.points.empty() ? scan.stamp_ns : scan.points.front().t_ns;
+    for (const LidarPoint& point : scan.points) begin_ns = std::min(begin_ns, point.t_ns);
+    before_pose_[static_cast<std::size_t>(scan.lidar_id)].push_back({begin_ns, arrival});
   }
   hand_on_(scan);
 }
@@ -185,7 +188,7 @@ void ScanSequencer::NoteFirstPose(std::int64_t t_ns) {
   std::int64_t first = handed_on_arrival_;
   for (const std::vector<Sweep>& sweeps : std::exchange(before_pose_, {})) {
     const auto behind = std::find_if(sweeps.begin(), sweeps.end(),
-                                     [&](const Sweep& sweep) { return sweep.stamp_ns > t_ns; });
+                                     [&](const Sweep& sweep) { return sweep.begin_ns > t_ns; });
     if (behind != sweeps.begin()) first = std::min(first, std::prev(behind)->arrival);
   }
   report_.before_first_pose = first;

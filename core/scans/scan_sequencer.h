@@ -52,7 +52,7 @@ class ScanSequencer {
   };
   using Queue = std::deque<std::unique_ptr<Entry>>;
   struct Sweep {
-    std::int64_t stamp_ns, arrival;
+    std::int64_t begin_ns, arrival;
   };
 
   void Judge(std::size_t lidar, bool is_final);

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
 """What came out of a batch: a row a run, with the options that vary, metrics, time and how it
 ended."""
+import difflib
+import pathlib
+import re
 import shlex
 
 import yaml
 
 from trajlo_batch.places import read_json_if
 from trajlo_batch.steps import simulate_command
+from trajlo_batch.yaml_lines import SuiteError
 
 USABLE = (0, 3)  # exit codes of runs whose whole recording was processed
 OK, FAILED, UNFINISHED, NO_TRUTH = "ok", "x", "not finished", "no truth"
@@ -77,6 +81,25 @@ def run_values(folder):
         "lost_at_s": dig(summary, "result", "lost_at_s"),
         "version": dig(summary, "versions", "git"),
     }
+
+
+def metric_names():
+    """Columns with numbers that a table can show; those of relative errors are as many as lengths
+    that are asked for."""
+    nowhere = pathlib.Path("/nowhere")
+    return ({*evaluation_values(nowhere)[0], *run_values(nowhere)} - {"version"}) | {
+        "cpu_s_per_data_second", "wall_s", "cpu_s", "peak_memory_mb"}
+
+
+def check_metric(suite):
+    """Throws SuiteError for a metric that no run has."""
+    names = metric_names()
+    if suite.metric in names or re.fullmatch(r"rpe_[0-9.e+-]+[a-z]+_(rotation_rmse_deg|rmse_m)",
+                                             suite.metric):
+        return
+    near = difflib.get_close_matches(suite.metric, names, 1)
+    raise SuiteError(f"{suite.file}: metric: no run has '{suite.metric}'"
+                     + (f"; did you mean '{near[0]}'?" if near else ""))
 
 
 def outcome(status, evaluation_status, diverged):

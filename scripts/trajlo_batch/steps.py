@@ -4,6 +4,7 @@ its run ended is an error."""
 import datetime
 import fcntl
 import pathlib
+import re
 import resource
 import shlex
 import shutil
@@ -134,8 +135,13 @@ def run_command(job, inputs, files, result):
 
 
 def last_message(path):
-    """The last line of a log, with the one before if this one only continues it."""
-    lines = path.read_text(errors="replace").rstrip().splitlines()[-2:]
+    """What a program said last by its name, else the last line of a log; with the one before if
+    this one only continues it."""
+    lines = path.read_text(errors="replace").rstrip().splitlines()
+    named = [line for line in lines if re.match(r"trajlo_\w+: (?!warning)", line)]
+    if named:
+        return named[-1].strip()
+    lines = lines[-2:]
     if len(lines) == 2 and not lines[1].startswith(" "):
         lines = lines[1:]
     return "; ".join(line.strip() for line in lines)

@@ -15,6 +15,7 @@ METRICS = {"ate_rmse_m": "absolute position error, RMSE [m]",
            "kitti_translation_percent": "KITTI's relative translation error [%]",
            "kitti_rotation_deg_per_m": "KITTI's relative rotation error [°/m]",
            "distance_to_start_m": "distance of the end from the start [m]"}
+LARGER_IS_BETTER = ("times_real_time", "inlier_share", "completeness")
 
 
 @dataclasses.dataclass
@@ -92,21 +93,23 @@ def average_cell(cells, decimals):
     return Cell(text, statistics.fmean(values))
 
 
-def mark(lines):
+def mark(lines, metric):
     """Marks the best of each column, and of each category when there are several. Numbers that
     are printed alike are equally good."""
     categories = {line.category for line in lines}
     for column in zip(*(line.cells for line in lines)):
         cells = list(zip(lines, column))
-        best_of(cells, "best")
+        best_of(cells, "best", metric)
         for category in categories if len(categories) > 1 else ():
-            best_of([item for item in cells if item[0].category == category], "category_best")
+            best_of([item for item in cells if item[0].category == category], "category_best",
+                    metric)
 
 
-def best_of(cells, attribute):
+def best_of(cells, attribute, metric):
+    best = max if metric in LARGER_IS_BETTER else min
     values = [float(cell.text) for _, cell in cells if not math.isnan(cell.value)]
     for _, cell in cells:
-        if values and not math.isnan(cell.value) and float(cell.text) == min(values):
+        if values and not math.isnan(cell.value) and float(cell.text) == best(values):
             setattr(cell, attribute, True)
 
 
@@ -134,7 +137,7 @@ def compared_table(suite, rows, published):
     lines += our_lines(suite, rows, published.columns, published.decimals, average="AVG")
     order = list(dict.fromkeys(line.category for line in lines))
     lines.sort(key=lambda line: order.index(line.category))
-    mark(lines)
+    mark(lines, suite.metric)
     notes = [f"Rows without * are from {published.source}.", *published.notes]
     return Table(published.caption, list(published.columns), lines, notes)
 
@@ -151,7 +154,7 @@ def suite_table(suite, rows, marked=True):
         groups.append("average")
     # With one configuration there is nothing to be better than.
     if marked and len(lines) > 1:
-        mark(lines)
+        mark(lines, suite.metric)
     seeds = {sequence.seed for sequence in suite.sequences if sequence.seed}
     notes = [f"{group}: degenerate by construction ({why})" for group, why in degenerate.items()]
     if len(seeds) > 1:

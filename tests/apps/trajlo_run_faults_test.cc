@@ -88,6 +88,40 @@ TEST_F(TrajloRunTest, OptionsOfEachLidarAreOneOrAsManyAsThereAreLidars) {
   EXPECT_EQ(Run({poses + "input.clock_offset_s=[0,0],input.stamp_at=start"}).exit_code, 0);
 }
 
+TEST_F(TrajloRunTest, AResultIsNoRecording) {
+  RoomRecording room;
+  room.scans = 6;
+  room.Write(temp_ / "in");
+  ASSERT_EQ(Run().exit_code, 0);
+  const Outcome again = Call({"--input=" + output(), "--output=" + output() + "2"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("a result of trajlo_run, not a recording"));
+}
+
+TEST_F(TrajloRunTest, AStartBehindTheEndIsNamed) {
+  RoomRecording room;
+  room.scans = 6;
+  room.Write(temp_ / "in");
+  const Outcome outcome = Run({"--set=input.start_s=100"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("input.start_s lies behind their end"));
+}
+
+TEST_F(TrajloRunTest, PointsOfAllFatesAreAllPoints) {
+  RoomRecording room;
+  room.scans = 6;
+  room.Write(temp_ / "in");
+  // Of the first scans hardly a point is left, and those of the others seem to be of the future.
+  Run({"--set=sensor.max_range_m=1.6"});
+  const auto points = RunJson()["input"]["points"];
+  std::int64_t sum = 0;
+  for (const char* fate :
+       {"kept", "not_finite", "too_near", "too_far", "too_late", "wrong_time", "without_time"}) {
+    sum += points[fate].get<std::int64_t>();
+  }
+  EXPECT_EQ(sum, points["received"].get<std::int64_t>()) << points;
+}
+
 TEST_F(TrajloRunTest, SeveralTopicsWithoutTheirPosesAreRefused) {
   WriteFile(temp_ / "in.bag", "");
   const Outcome outcome =

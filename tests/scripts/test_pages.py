@@ -161,7 +161,15 @@ class RunPageTest(FolderTest):
         with unittest.mock.patch.object(view, "THREE", self.folder / "nothing"):
             self.assertIn("libjs-three", view.missing_library())
 
+    def test_a_folder_that_is_no_result_is_refused_and_left_alone(self):
+        done = subprocess.run([SCRIPTS / "draw_run.py", self.folder], capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("holds no result", done.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_a_run_that_left_nothing_still_has_a_page(self):
+        self.write("run.json", "{}")
         self.draw()
         self.assertIn("There is no trajectory", (self.folder / "run.html").read_text())
         self.assert_self_contained(self.folder / "run.html")

@@ -95,6 +95,12 @@ class RunTest(FolderTest):
         self.assertEqual((status["exit_code"], status["reason"]),
                          (2, "input unreadable: no such file; Give another."))
 
+    def test_of_a_long_log_the_reason_is_what_the_program_said(self):
+        status = self.run_with("echo 'trajlo_run: unknown flag --rat; did you mean --rate?' >&2; "
+                               "echo '(trajlo_run --help shows examples)' >&2; exit 1")
+        self.assertEqual(status["reason"], "configuration refused: trajlo_run: unknown flag --rat; "
+                                           "did you mean --rate?")
+
     def test_a_signal_is_a_crash(self):
         status = self.run_with("kill -ABRT $$")
         self.assertEqual((status["exit_code"], status["reason"]),

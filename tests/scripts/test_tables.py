@@ -5,7 +5,7 @@ import unittest
 
 from support import ROOT, FolderTest
 
-from trajlo_batch import table_formats, tables
+from trajlo_batch import results, table_formats, tables
 from trajlo_batch.published import read_published
 from trajlo_batch.suite import Configuration, Sequence, Suite
 from trajlo_batch.yaml_lines import SuiteError
@@ -120,6 +120,21 @@ class SuiteTableTest(unittest.TestCase):
         cell = tables.suite_table(make_suite(), rows).lines[0].cells[0]
         self.assertEqual(cell.text, "0.200")
         self.assertIn("0.100 to 0.900, 3 seeds", cell.note)
+
+    def test_the_fastest_is_the_best(self):
+        suite = make_suite(configurations=("ours", "theirs"), metric="times_real_time")
+        rows = [dict(row("ours", "eee_01", 0.1), times_real_time=20.0),
+                dict(row("theirs", "eee_01", 0.1), times_real_time=2.0)]
+        ours, theirs = (line.cells[0] for line in tables.suite_table(suite, rows).lines)
+        self.assertEqual((ours.best, theirs.best), (True, False))
+
+    def test_a_metric_that_no_run_has_is_an_error_with_the_nearest(self):
+        for metric in ("ate_rmse_m", "rpe_1m_rmse_m", "cpu_s_per_data_second"):
+            results.check_metric(make_suite(metric=metric))
+        with self.assertRaisesRegex(SuiteError, "did you mean 'ate_rmse_m'"):
+            results.check_metric(make_suite(metric="ate_rms_m"))
+        with self.assertRaises(SuiteError):
+            results.check_metric(make_suite(metric="host"))
 
     def test_a_seed_that_failed_is_counted_and_forfeits_the_mark(self):
         suite = make_suite(configurations=("ours", "theirs"))

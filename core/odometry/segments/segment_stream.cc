@@ -24,8 +24,9 @@ void SegmentStream::Finish() {
 
 PointCounts SegmentStream::point_counts() const {
   PointCounts counts = segmenter_.counts();
-  counts.wrong_time = sequencer_.report().points;
-  counts.received += counts.wrong_time;
+  const std::int64_t of_wrong_scans = sequencer_.report().points;
+  counts.wrong_time += of_wrong_scans;
+  counts.received += of_wrong_scans;
   return counts;
 }
 

@@ -45,7 +45,7 @@ TEST(ProcessingTime, NoDataAndAPauseOfYearsAreHarmless) {
   EXPECT_GT(time.PerSecondOfData((std::int64_t{1} << 60) + 1).median_ms, 0.0);
   ProcessingTime backwards;
   backwards.Add(100, 4.0);
-  EXPECT_GT(backwards.PerSecondOfData(0).median_ms, 0.0);
+  EXPECT_EQ(backwards.PerSecondOfData(0).median_ms, 0.0);
 }
 
 }  // namespace

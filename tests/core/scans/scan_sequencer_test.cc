@@ -230,6 +230,19 @@ TEST(ScanSequencer, CountsTheScansBeforeTheFirstPose) {
   }
 }
 
+TEST(ScanSequencer, NoScanIsBeforeAFirstPoseAtItsFirstPointWhereStampsMarkTheEnd) {
+  std::vector<LidarScan> scans = WithStamps(Regular(20));
+  const std::int64_t first_point_ns = scans[0].stamp_ns;
+  for (LidarScan& scan : scans) scan.stamp_ns += kPeriod;
+  int handed_on = 0;
+  ScanSequencer sequencer(0.5, [&](const LidarScan&) {
+    if (++handed_on == 5) sequencer.NoteFirstPose(first_point_ns);
+  });
+  for (const LidarScan& scan : scans) sequencer.Add(scan);
+  sequencer.Finish();
+  EXPECT_EQ(sequencer.report().before_first_pose, 0);
+}
+
 TEST(ScanSequencer, ThePoseOfTheFirstScansOfTwoLidarsHasNoneBefore) {
   std::vector<LidarScan> scans;
   for (const LidarScan& scan : WithStamps(Regular(20))) {
