@@ -83,7 +83,10 @@ ExitCode Fail(const Command& command, ExitCode code, const char* what) {
 /// No exception leaves it.
 ExitCode RunGuarded(const Command& command, int argc, char** argv) {
   try {
-    return Run(command, argc, argv);
+    const ExitCode code = Run(command, argc, argv);
+    const bool is_said = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (code != ExitCode::kOk || is_said) return code;
+    return Fail(command, ExitCode::kOutputNotWritable, "the output cannot be written");
   } catch (const UsageError& error) {
     return Fail(command, ExitCode::kUsage, error.what());
   } catch (const ConfigError& error) {

@@ -30,7 +30,13 @@ void PrepareFolder(const CompareRequest& request) {
   }
   fs::create_directories(request.output, error);
   if (error) throw OutputError(request.output, error.message());
-  fs::remove(fs::path(request.output) / "comparison.json", error);
+  // What an earlier comparison left would be taken for this one's.
+  for (const char* name :
+       {"comparison.json", "config.yaml", "lockstep.csv", "iterations.csv", "lockstep_summary.csv",
+        "free_summary.csv", "report.html", "free", "figures"}) {
+    fs::remove_all(fs::path(request.output) / name, error);
+    if (error) throw OutputError(request.output, error.message());
+  }
 }
 
 void Write(const CompareRequest& request, const CompareReport& report) {

@@ -36,6 +36,13 @@ std::vector<SolverVariant> LoadVariants(const std::filesystem::path& path, const
         (item["set"] && !item["set"].IsScalar())) {
       throw ConfigError(Where(path, item), "a variant is {name: ..., set: \"key=value,...\"}");
     }
+    for (const auto& entry : item) {
+      const auto key = entry.first.as<std::string>();
+      if (key == "name" || key == "set") continue;
+      throw ConfigError(
+          Where(path, item),
+          "unknown key '" + key + "'; a variant is {name: ..., set: \"key=value,...\"}");
+    }
     SolverVariant variant;
     variant.name = item["name"].as<std::string>();
     if (item["set"]) variant.settings = item["set"].as<std::string>();
@@ -51,6 +58,13 @@ std::vector<SolverVariant> LoadVariants(const std::filesystem::path& path, const
     RunConfig config = base;
     ApplyOverrides(variant.settings, &config, Where(path, item));
     CheckConfig(config);
+    RunConfig same_input = config;
+    same_input.input = base.input;
+    if (DumpConfig(same_input) != DumpConfig(config)) {
+      throw ConfigError(
+          Where(path, item),
+          "all variants read the recording alike: give input.* to the command (--set)");
+    }
     variant.odometry = config.odometry;
     variant.ceres_form = config.ceres_form;
     variants.push_back(std::move(variant));

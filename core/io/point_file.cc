@@ -38,16 +38,15 @@ void CheckPlausible(const std::filesystem::path& path, const PointTable& table) 
       "A .bin scan holds float32 x y z intensity, or x y z intensity ring, and nothing else.");
 }
 
-/// True if the fifth of `numbers` in a point is its ring: a small whole number, which of
-/// coordinates and intensities only zeros are. A file that was cut may end within a point, and a
-/// few numbers may be spoilt.
-bool HasRings(const FileBytes& bytes, std::size_t numbers) {
+/// True if one column of `numbers` has rings: small whole numbers, which of coordinates only zeros
+/// are. A file that was cut may end within a point, and a few numbers may be spoilt.
+bool HasRings(const FileBytes& bytes, std::size_t numbers, std::size_t column = 4) {
   const std::size_t row_bytes = numbers * sizeof(float);
   const std::size_t checked = std::min<std::size_t>(bytes.size() / row_bytes, 10000);
   std::size_t rings = 0, zeros = 0;
   for (std::size_t i = 0; i < checked; ++i) {
     float ring = 0.0F;
-    std::memcpy(&ring, bytes.data() + i * row_bytes + 4 * sizeof(float), sizeof(ring));
+    std::memcpy(&ring, bytes.data() + i * row_bytes + column * sizeof(float), sizeof(ring));
     rings += ring >= 0.0F && ring < 256.0F && ring == std::floor(ring) ? 1 : 0;
     zeros += ring == 0.0F ? 1 : 0;
   }
@@ -63,7 +62,13 @@ PointTable ReadBin(const std::filesystem::path& path, FileBytes bytes) {
   std::vector<const char*> names = {"x", "y", "z", "intensity"};
   if (HasRings(bytes, 5)) names.push_back("ring");
   for (const std::size_t more : {6, 7, 8}) {
-    if (bytes.size() % (more * sizeof(float)) != 0 || !HasRings(bytes, more)) continue;
+    if (bytes.size() % (more * sizeof(float)) != 0) continue;
+    // If these are two points of four numbers, columns 4 to 6 are coordinates.
+    bool has_rings = false;
+    for (std::size_t column = 4; column < std::min<std::size_t>(more, 7); ++column) {
+      has_rings = has_rings || HasRings(bytes, more, column);
+    }
+    if (!has_rings) continue;
     throw InputError(path, "this seems to hold " + std::to_string(more) + " numbers a point",
                      "A .bin scan holds float32 x y z intensity, or x y z intensity ring. Write "
                      "such a file, or a .pcd with the names of its fields.");

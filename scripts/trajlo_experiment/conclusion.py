@@ -46,8 +46,9 @@ def about_best(findings, ranked):
     best = ranked[0]
     said = [f"The best of {len(ranked)} settings is {setting_text(findings, row_of[best.point])}."]
     if best.failed:
-        return ["No setting ended well on all recordings.", *said,
-                f"It failed {best.failed} times."]
+        none = "No setting ended well on all recordings."
+        return [none, *said, f"It failed {best.failed} times."] if math.isfinite(best.score) else [
+            none]
     marks = analysis.marks_of(row_of[best.point])
     reference = findings.study.reference
     if not findings.exact_reference:
@@ -65,8 +66,10 @@ def about_factors(findings):
     """The factor whose values differ most, by the geometric mean over all that ended well."""
     swings = {}
     for factor in findings.study.factors:
-        levels = []
-        for item in findings.bins(factor):
+        levels, bins = [], findings.bins(factor)
+        if findings.sampled and all(len({row["point"] for row in item.rows}) < 2 for item in bins):
+            continue  # Each level is one sample, in which all factors differ.
+        for item in bins:
             scores = {row["point"]: findings.scores[row["point"]].score for row in item.rows
                       if row["point"] in findings.scores}
             finite = [score for score in scores.values() if math.isfinite(score)]

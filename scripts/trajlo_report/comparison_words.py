@@ -34,9 +34,9 @@ def factor(value):
 
 def agreement(items, distance_of, what):
     """Which agree with the first, and how far the farthest is from it; `what`: many do, one does."""
-    first, others = items[0]["name"], items[1:]
-    if not others:
+    if len(items) < 2:
         return []
+    first, others = items[0]["name"], items[1:]
     same = [item["name"] for item in others if distance_of(item) <= SAME_M]
     far = max(others, key=distance_of)
     count = (f"{len(same)} of {len(others)}" if len(same) < len(others)
@@ -65,7 +65,8 @@ def of_windows(lockstep):
         times = factor(first["lockstep"]["total_ms"] / least)
         text += f" ({first['name']} takes {times} × as long)"
     said = [f"{text}; {slowest['name']} is slowest, {factor(most / least)} × as long.",
-            *agreement(alike, lambda item: item["lockstep"]["max_from_first_m"],
+            # Distances are from the first of all, which must minimise the same cost.
+            *agreement(alike if alike[0] is lockstep[0] else [], lambda item: item["lockstep"]["max_from_first_m"],
                        ("find a solution that equals", "finds a solution that equals"))]
     others = [item["name"] for item in lockstep if changes_energy(item)]
     if others:

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -79,6 +80,14 @@ TEST_F(TrajloCompareSolversTest, EveryRowHasAllColumnsWhereTrajectoriesPart) {
   }
   EXPECT_THAT(line = Result("free_summary.csv"),
               HasSubstr(json["variants"][1]["free"]["parts_at_s"].get<std::string>()));
+}
+
+TEST_F(TrajloCompareSolversTest, NothingOfAnEarlierComparisonStays) {
+  ASSERT_EQ(Call({"--only=gauss_newton,kernel_huber"}).exit_code, 0);
+  ASSERT_EQ(Call({"--only=ceres", "--mode=free", "--overwrite"}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(temp_ / "out/lockstep.csv"));
+  EXPECT_FALSE(std::filesystem::exists(temp_ / "out/free/kernel_huber"));
+  EXPECT_TRUE(std::filesystem::exists(temp_ / "out/free/ceres/trajectory.tum"));
 }
 
 TEST_F(TrajloCompareSolversTest, DamageOfTheInputIsToldAndHasItsExitCode) {

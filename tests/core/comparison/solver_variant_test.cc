@@ -45,6 +45,10 @@ TEST(SolverVariants, MistakesNameFileAndLine) {
   EXPECT_THAT(error("variants:\n  - {name: ../a}\n"), HasSubstr("that of a folder"));
   EXPECT_THAT(error("variants:\n  - {name: a, set: \"solver.knd=ceres\"}\n"),
               HasSubstr("did you mean 'solver.kind'"));
+  EXPECT_THAT(error("variants:\n  - {name: a, sets: \"solver.kind=ceres\"}\n"),
+              HasSubstr("unknown key 'sets'"));
+  EXPECT_THAT(error("variants:\n  - {name: a, set: \"input.point_time=none\"}\n"),
+              HasSubstr("read the recording alike"));
   EXPECT_THAT(error("variants: [\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(ConfigErrorOf([] { LoadVariants("/nowhere.yaml", {}); }), HasSubstr("No such file"));
 }

@@ -205,6 +205,19 @@ TEST(PointFile, ABinWithMoreNumbersAPointIsRefused) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("6 numbers a point"));
   }
+  std::string eight;
+  for (int i = 0; i < 320; ++i) {
+    const float row[] = {0.25F * static_cast<float>(i) + 0.1F,
+                         -3.3F,
+                         1.7F,
+                         static_cast<float>(i % 90),
+                         1e-4F * static_cast<float>(i),
+                         static_cast<float>(i % 32),
+                         0.0F,
+                         0.0F};
+    eight.append(reinterpret_cast<const char*>(row), sizeof(row));
+  }
+  EXPECT_THROW(ReadPointFile(folder.Write("eight.bin", eight)), InputError);
 }
 
 TEST(PointFile, BinaryDataThatIsNoScanIsRefusedAsKittiBin) {
