@@ -4,6 +4,10 @@
 # `--target trajlo_run`. TRAJLO_BUILD_DIR names another folder, TRAJLO_JOBS bounds the jobs,
 # TRAJLO_CMAKE_ARGUMENTS has options for CMake, separated by blanks.
 set -euo pipefail
+if [[ "${1:-}" == -h || "${1:-}" == --help ]]; then
+  sed -n '3,5p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
+  exit 0
+fi
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 build="${TRAJLO_BUILD_DIR:-$root/build}"
 

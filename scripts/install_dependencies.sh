@@ -8,6 +8,10 @@ here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 lists=("$here/packages.txt")
 case "${1:-}" in
   "") ;;
+  -h | --help)
+    sed -n '3,4p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'
+    exit 0
+    ;;
   --checks) lists+=("$here/packages_checks.txt") ;;
   *) echo "install_dependencies.sh: $1 is no option; --checks is the only one" >&2; exit 1 ;;
 esac

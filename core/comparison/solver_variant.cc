@@ -47,13 +47,13 @@ std::vector<SolverVariant> LoadVariants(const std::filesystem::path& path, const
     variant.name = item["name"].as<std::string>();
     if (item["set"]) variant.settings = item["set"].as<std::string>();
     const bool is_file_name = !variant.name.empty() && variant.name[0] != '.' &&
-                              variant.name.find('/') == std::string::npos;
+                              variant.name.find_first_of("/,\"\n") == std::string::npos;
     const bool is_new = std::none_of(variants.begin(), variants.end(),
                                      [&](const auto& other) { return other.name == variant.name; });
     if (!is_file_name || !is_new) {
       throw ConfigError(Where(path, item),
                         "the name '" + variant.name + "' " +
-                            (is_new ? "cannot be that of a folder" : "is there twice"));
+                            (is_new ? "cannot be that of a folder in a list" : "is there twice"));
     }
     RunConfig config = base;
     ApplyOverrides(variant.settings, &config, Where(path, item));
