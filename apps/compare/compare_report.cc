@@ -83,6 +83,7 @@ Json FreeJson(const FreeResult& r) {
   return {
       {"trajectory", "free/" + r.name + "/trajectory.tum"},
       {"poses", r.poses.size()},
+      {"poses_compared", r.poses_compared},
       {"cpu_s", r.cpu_s},
       {"wall_s", r.feed.wall_s},
       {"windows", r.windows.windows},

@@ -55,6 +55,7 @@ void CompareWithFirst(const FreeResult& first, FreeResult* result) {
     while (other != first.poses.end() && other->t_ns < pose.t_ns) ++other;
     if (other == first.poses.end()) return;
     if (other->t_ns != pose.t_ns) continue;  // Another segment length has poses at other times.
+    ++result->poses_compared;
     const double distance_m = (other->T_world_body.t - pose.T_world_body.t).norm();
     result->max_from_first_m = std::max(result->max_from_first_m, distance_m);
     if (distance_m > kSame_m && !result->parts_at_ns) result->parts_at_ns = pose.t_ns;

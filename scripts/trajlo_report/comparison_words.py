@@ -66,7 +66,8 @@ def of_windows(lockstep):
         text += f" ({first['name']} takes {times} × as long)"
     said = [f"{text}; {slowest['name']} is slowest, {factor(most / least)} × as long.",
             # Distances are from the first of all, which must minimise the same cost.
-            *agreement(alike if alike[0] is lockstep[0] else [], lambda item: item["lockstep"]["max_from_first_m"],
+            *agreement(alike if alike[0] is lockstep[0] else [],
+                       lambda item: item["lockstep"]["max_from_first_m"],
                        ("find a solution that equals", "finds a solution that equals"))]
     others = [item["name"] for item in lockstep if changes_energy(item)]
     if others:
@@ -78,8 +79,13 @@ def of_windows(lockstep):
 def of_runs(free):
     if len(free) < 2:
         return []
-    said = agreement(free, lambda item: item["free"]["max_from_first_m"],
+    others = [item for item in free if 2 * item["free"]["poses_compared"] < item["free"]["poses"]]
+    said = agreement([item for item in free if item not in others],
+                     lambda item: item["free"]["max_from_first_m"],
                      ("end with a trajectory that equals", "ends with a trajectory that equals"))
+    if others:
+        said.append(f"{listed([item['name'] for item in others])}: most poses are at other times "
+                    f"than those of {free[0]['name']}, and are not compared with them.")
     lost = [item["name"] for item in free if item["free"].get("lost_at_s")]
     if lost:
         said.append(f"{listed(lost)} got lost.")

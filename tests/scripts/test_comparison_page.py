@@ -26,7 +26,8 @@ def variant(name, settings, total_ms, apart_m, free_apart_m, parts_s, error_m):
                          "linear_solve_ms": 0.2 * total_ms, "total_ms": total_ms,
                          "cost_after": 1.0, "median_from_first_m": apart_m / 2,
                          "max_from_first_m": apart_m, "max_from_first_rad": 0.0},
-            "free": {"trajectory": f"free/{name}/trajectory.tum", "poses": 3, "cpu_s": total_ms,
+            "free": {"trajectory": f"free/{name}/trajectory.tum", "poses": 3, "poses_compared": 3,
+                     "cpu_s": total_ms,
                      "wall_s": total_ms, "windows": 6, "rounds": 9, "rejected_steps": 0,
                      "stages_ms": {"solve": total_ms}, "lost_at_s": None,
                      "max_from_first_m": free_apart_m, "ate_rmse_m": error_m,
@@ -75,6 +76,13 @@ class ComparisonPageTest(FolderTest):
                      "micrometre; the farthest, kernel_huber, differs by 5.0 cm.",
                      "Position errors reach from 1.0 cm (plain) to 2.0 cm (kernel_huber)."):
             self.assertIn(said, text)
+
+    def test_runs_with_poses_at_other_times_are_not_said_to_be_equal(self):
+        self.document["variants"][1]["free"]["poses_compared"] = 1
+        said = " ".join(words.of_runs(
+            [item for item in self.document["variants"] if item["name"] in ("plain", "twin")]))
+        self.assertIn("twin: most poses are at other times", said)
+        self.assertNotIn("equals", said)
 
     def test_times_count_from_the_start_and_not_from_1970(self):
         text = self.draw()
