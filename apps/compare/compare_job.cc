@@ -25,11 +25,13 @@ void PrepareFolder(const CompareRequest& request) {
   if (fs::exists(request.output, error) && !fs::is_directory(request.output, error)) {
     throw OutputError(request.output, "is there and is no folder");
   }
-  if (fs::exists(fs::path(request.output) / "comparison.json", error) && !request.overwrite) {
+  const bool is_there = fs::exists(fs::path(request.output) / "comparison.json", error);
+  if (is_there && !request.overwrite) {
     throw OutputError(request.output, "holds a comparison already; --overwrite replaces it");
   }
   fs::create_directories(request.output, error);
   if (error) throw OutputError(request.output, error.message());
+  if (!is_there) return;
   // What an earlier comparison left would be taken for this one's.
   for (const char* name :
        {"comparison.json", "config.yaml", "lockstep.csv", "iterations.csv", "lockstep_summary.csv",

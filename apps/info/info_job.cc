@@ -48,10 +48,6 @@ ExitCode InfoJob(const InfoRequest& request, const std::atomic<bool>& stop) {
     std::fflush(stdout);
   }
   if (request.json) std::fputs(InfoJson(found).c_str(), stdout);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    std::fprintf(stderr, "trajlo_info: the output cannot be written\n");
-    return ExitCode::kOutputNotWritable;
-  }
   if (stop) return ExitCode::kInterrupted;
   if (unreadable) return ExitCode::kInputUnreadable;
   const bool damaged = std::any_of(found.begin(), found.end(),

@@ -13,6 +13,9 @@ FLAGS = ("no_points", "gap", "reverted", "not_converged", "degenerate", "lost",
          "few_inliers")
 COLUMNS = {"points": "points_per_window", "rounds": "rounds_per_window",
            "iterations": "iterations_per_window"}
+METRICS = ("cpu_ms_per_data_second", "windows", *COLUMNS.values(), "rejected_steps",
+           "smallest_eigenvalue_median", "smallest_eigenvalue_min", "share_flagged",
+           *(f"share_{flag}" for flag in FLAGS))  # besides those of a batch
 LEFT_OUT = ("suite", "configuration", "degenerate", "sequence", "group", "seed", "inlier_share",
             "cpu_s_per_data_second", "data_s", "version", "folder", "command")
 

@@ -90,6 +90,13 @@ TEST_F(TrajloCompareSolversTest, NothingOfAnEarlierComparisonStays) {
   EXPECT_TRUE(std::filesystem::exists(temp_ / "out/free/ceres/trajectory.tum"));
 }
 
+TEST_F(TrajloCompareSolversTest, WhatIsInAFolderWithoutAComparisonStays) {
+  std::filesystem::create_directories(temp_ / "out/figures");
+  WriteFile(temp_ / "out/figures/mine.png", "mine");
+  ASSERT_EQ(Call({"--only=ceres", "--mode=free", "--overwrite"}).exit_code, 0);
+  EXPECT_EQ(Result("figures/mine.png"), "mine");
+}
+
 TEST_F(TrajloCompareSolversTest, DamageOfTheInputIsToldAndHasItsExitCode) {
   WriteFile(temp_ / "in" / "scans" / "000003.pcd", "no cloud");
   const Outcome outcome = Call({"--only=gauss_newton"});

@@ -146,6 +146,14 @@ class TableTest(PretendedTest):
         self.assertEqual(row["cpu_ms_per_data_second"], 500.0)
         self.assertIn("trajlo_run 0.1.0", row["program"])
 
+    def test_every_column_of_windows_and_flags_may_be_the_metric(self):
+        row = self.rows()[0]
+        for metric in table.METRICS:
+            self.assertIsInstance(row[metric], (int, float), metric)
+        columns = [name for name in row if name.startswith(("share_", "smallest_"))
+                   or name.endswith("_per_window")]
+        self.assertLessEqual(set(columns), set(table.METRICS))
+
     def test_a_factor_that_a_point_leaves_alone_has_the_value_of_the_run(self):
         row = self.rows()[-1]
         self.assertEqual((row["marks"], row["in_design"], row["window.segments"]),
