@@ -76,16 +76,24 @@ def error_matrix(rows, metric):
     return points, recordings, errors
 
 
-def reference_errors(rows, metric, reference):
-    """By recording: the error of the reference, or the median over all points where it failed or
-    there is none. Also whether it is the reference's everywhere."""
+@dataclasses.dataclass(frozen=True)
+class Reference:
+    """What errors are divided by. Ratios of different recordings do not mix: where the reference has
+    no error, nothing is compared with it."""
+    errors: dict      # recording -> error; only those that are compared
+    recordings: int   # all that there are
+    is_marked: bool   # errors of the marked setting; else of each recording's median over settings
+
+
+def reference_of(rows, metric, reference):
     points, recordings, errors = error_matrix(rows, metric)
     marked = [row["point"] for row in rows if reference in marks_of(row)]
     own = errors[points.index(marked[0])] if marked else np.full(len(recordings), math.nan)
-    middle = np.array([median([value for value in column if math.isfinite(value)])
-                       for column in errors.T])
-    good = np.isfinite(own) & (own > 0)
-    return dict(zip(recordings, np.where(good, own, middle))), bool(good.all())
+    is_marked = bool((np.isfinite(own) & (own > 0)).any())
+    if not is_marked:
+        own = [median([value for value in column if math.isfinite(value)]) for column in errors.T]
+    return Reference({recording: float(value) for recording, value in zip(recordings, own)
+                      if math.isfinite(value) and value > 0}, len(recordings), is_marked)
 
 
 @dataclasses.dataclass
@@ -94,7 +102,7 @@ class Ranked:
     point: str
     failed: int
     score: float       # geometric mean of error / reference, over seeds, then over groups
-    low: float         # 95 % of the score when seeds are drawn again; NaN where there is one seed
+    low: float         # 95 % of the score when seeds are drawn again; NaN of too few seeds
     high: float
     best_share: float  # how often it is the best of all when seeds are drawn again; as above
     errors: dict       # group -> errors of its seeds
@@ -112,9 +120,20 @@ def seed_weights(recordings, count, rng):
     return weights
 
 
-def fewest_seeds(recordings):
+def even_weights(recordings):
+    """Groups alike, and the seeds of each."""
     groups = [group for group, _ in recordings]
-    return min((groups.count(group) for group in groups), default=0)
+    return np.array([1.0 / groups.count(group) / len(set(groups)) for group in groups])
+
+
+def enough_seeds(recordings):
+    """Whether seeds that are drawn again tell how far results scatter. Two of a scenario tell their
+    distance only, and so do three of a lone one: one draw in 27 has nothing but the least of them,
+    and 95 % of the draws reach from the least to the most."""
+    groups = [group for group, _ in recordings]
+    counts = [groups.count(group) for group in dict.fromkeys(groups)]
+    least_alone = math.prod(count ** -count for count in counts)
+    return min(counts, default=0) > 2 and least_alone < 0.025
 
 
 def rank(rows, metric, reference, rng=None):
@@ -122,34 +141,32 @@ def rank(rows, metric, reference, rng=None):
 
     The same seeds are drawn for all points: they are compared on the same recordings."""
     points, recordings, errors = error_matrix(rows, metric)
-    by_recording, _ = reference_errors(rows, metric, reference)
+    divisors = reference_of(rows, metric, reference).errors
     whole = ~np.isnan(errors).any(axis=1)
     if not whole.any():
         return []
     points, errors = [name for name, use in zip(points, whole) if use], errors[whole]
     failed = np.isinf(errors)
-    scale = np.array([by_recording[recording] for recording in recordings])
-    # Recordings on which everything failed say nothing but that.
-    scale = np.where(np.isfinite(scale) & (scale > 0), scale, 1.0)
-    logs = np.log(np.maximum(np.where(failed, 1.0, errors) / scale, 1e-12))
-    weights = seed_weights(recordings, BOOTSTRAP, rng or np.random.default_rng(0))
-    drawn = np.where(failed.astype(float) @ weights.T > 0, math.inf, np.exp(logs @ weights.T))
-    groups = {group: [i for i, (name, _) in enumerate(recordings) if name == group]
-              for group, _ in recordings}
-    even = np.zeros(len(recordings))
-    for members in groups.values():
-        even[members] = 1.0 / len(members) / len(groups)
+    # Where every error is zero, or all have failed, there are only failures to compare.
+    compared = [recording for recording in recordings if recording in divisors] or recordings
+    places = [recordings.index(recording) for recording in compared]
+    lost, scale = failed[:, places], np.array([divisors.get(item, 1.0) for item in compared])
+    logs = np.log(np.maximum(np.where(lost, 1.0, errors[:, places]) / scale, 1e-12))
+    weights = seed_weights(compared, BOOTSTRAP, rng or np.random.default_rng(0))
+    drawn = np.where(lost.astype(float) @ weights.T > 0, math.inf, np.exp(logs @ weights.T))
+    drawn[np.delete(failed, places, axis=1).any(axis=1)] = math.inf
+    even = even_weights(compared)
     # Settings that do the same share what they win.
     best = (drawn == drawn.min(axis=0)) & np.isfinite(drawn)
     wins = (best / np.maximum(best.sum(axis=0), 1)).mean(axis=1)
-    # One seed drawn again and again is always the same, which says nothing of its spread.
-    spread = fewest_seeds(recordings) > 1
+    spread = enough_seeds(compared)
     ranked = []
     for i, name in enumerate(points):
         score = math.inf if failed[i].any() else float(np.exp(logs[i] @ even))
         low, high = (quantile(drawn[i], share) if spread else math.nan for share in (0.025, 0.975))
+        of_group = {}
+        for (group, _), error in zip(recordings, errors[i].tolist()):
+            of_group.setdefault(group, []).append(error)
         ranked.append(Ranked(name, int(failed[i].sum()), score, low, high,
-                             float(wins[i]) if spread else math.nan,
-                             {group: errors[i, members].tolist()
-                              for group, members in groups.items()}))
+                             float(wins[i]) if spread else math.nan, of_group))
     return sorted(ranked, key=lambda item: (item.failed, item.score))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What an experiment found, in sentences, and what to be careful about."""
+import dataclasses
 import math
 import re
 
@@ -51,38 +52,83 @@ def about_best(findings, ranked):
             none]
     marks = analysis.marks_of(row_of[best.point])
     reference = findings.study.reference
-    if not findings.exact_reference:
+    if not findings.reference.is_marked:
         return said
     if reference in marks:
         return [f"{said[0]} That is “{reference}”."]
     place = next((place for place, item in enumerate(ranked, 1)
                   if reference in analysis.marks_of(row_of[item.point])), None)
     which = f", which is number {place}" if place else ""
-    return [*said, f"Its error is {change(best.score)} that of “{reference}”{which}"
-            f"{scatter(findings, best)}."]
+    where = findings.compared_text and f"{findings.compared_text},"
+    return [*said, f"Its error{where} is {change(best.score)} that of "
+            f"“{reference}”{which}{scatter(findings, best)}."]
+
+
+@dataclasses.dataclass(frozen=True)
+class Level:
+    """What all runs with one value of a factor say together."""
+    text: str      # "σ = 0.1 m"
+    mean: float    # geometric, of the settings that ended well everywhere; infinite if none did
+    failed: int
+    runs: int
+
+    @property
+    def lost(self):
+        return self.failed / self.runs
+
+
+def levels_of(findings, factor):
+    bins = findings.bins(factor)
+    if findings.sampled and all(len({row["point"] for row in item.rows}) < 2 for item in bins):
+        return []  # Each level is one sample, in which all factors differ.
+    found = []
+    for item in bins:
+        scores = [findings.scores[name].score for name in {row["point"] for row in item.rows}
+                  if name in findings.scores]
+        finite = [score for score in scores if math.isfinite(score)]
+        failed = [math.isinf(error) for error in findings.errors(item.rows)]
+        if scores:
+            mean = float(np.exp(np.mean(np.log(finite)))) if finite else math.inf
+            found.append(Level(level_of(factor, item.label), mean, sum(failed), len(failed)))
+    return found
+
+
+def ratio_of(levels):
+    """Between the means of the worst and the best; a value with which no setting ended well is worse
+    than any other."""
+    means = [level.mean for level in levels]
+    return max(means) / min(means) if math.isfinite(min(means, default=math.inf)) else 1.0
+
+
+def of_runs(level):
+    return f"{level.failed} of {level.runs} runs failed with {level.text}"
 
 
 def about_factors(findings):
-    """The factor whose values differ most, by the geometric mean over all that ended well."""
-    swings = {}
-    for factor in findings.study.factors:
-        levels, bins = [], findings.bins(factor)
-        if findings.sampled and all(len({row["point"] for row in item.rows}) < 2 for item in bins):
-            continue  # Each level is one sample, in which all factors differ.
-        for item in bins:
-            scores = {row["point"]: findings.scores[row["point"]].score for row in item.rows
-                      if row["point"] in findings.scores}
-            finite = [score for score in scores.values() if math.isfinite(score)]
-            levels += [float(np.exp(np.mean(np.log(finite))))] if finite else []
-        if len(levels) > 1:
-            swings[factor.label] = max(levels) / min(levels)
-    if not swings:
+    """The factor whose values differ most in their mean error, and the value that fails most."""
+    found = {factor.label: levels_of(findings, factor) for factor in findings.study.factors}
+    found = {label: levels for label, levels in found.items() if len(levels) > 1}
+    if not found:
         return []
-    most = max(swings, key=swings.get)
-    if swings[most] < 1.05:
-        return ["No factor by itself changes the mean error by more than 5 %."]
-    return [f"{most} matters most: between its values the mean error differs by a factor of "
-            f"{swings[most]:.1f}."]
+    most = max(found, key=lambda label: ratio_of(found[label]))
+    rest = [level for level in found[most] if math.isfinite(level.mean)]
+    lost = [level for level in found[most] if math.isinf(level.mean)] if rest else []
+    if lost:
+        said = [f"{most} matters most: " + ", ".join(map(of_runs, lost))
+                + ", and no setting with it ended well on all recordings."]
+        if len(rest) > 1:
+            said += [f"Between its other values the mean error differs by a factor of "
+                     f"{ratio_of(rest):.1f}."]
+    elif ratio_of(rest) >= 1.05:
+        said = [f"{most} matters most: between its values the mean error differs by a factor of "
+                f"{ratio_of(rest):.1f}."]
+    else:
+        said = ["No factor by itself changes the mean error by more than 5 %."]
+    worst, least = max((sorted(levels, key=lambda level: -level.lost)[::len(levels) - 1]
+                        for levels in found.values()), key=lambda ends: ends[0].lost - ends[1].lost)
+    if worst.lost > least.lost and worst not in lost:
+        said += [f"{of_runs(worst)}, {least.failed} of {least.runs} with {least.text}."]
+    return said
 
 
 def about_failures(findings, ranked):
@@ -123,8 +169,9 @@ def warnings(plan):
 
 def caution(findings):
     """What the seeds are worth."""
-    seeds = analysis.fewest_seeds(analysis.recordings_of(findings.rows))
-    if seeds < 2:
-        return ("Some scenarios have one seed only. Nothing tells how far results would scatter "
-                "with others, so no intervals are given, and small differences may be chance.")
+    if not findings.has_intervals:
+        return ("There are too few seeds to tell how far results would scatter with others. So no "
+                "intervals are given, and small differences may be chance.")
+    groups = [group for group, _ in findings.reference.errors]
+    seeds = min(map(groups.count, groups))
     return f"With {seeds} seeds per scenario the intervals are rough." if seeds < 5 else ""

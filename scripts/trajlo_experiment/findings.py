@@ -36,8 +36,7 @@ class Findings:
         self.design = [row for row in self.rows if row["in_design"]]
         self.failures = sum(row["result"] == results.FAILED for row in self.rows)
         self.marks = {mark: row for row in self.rows for mark in analysis.marks_of(row)}
-        _, self.exact_reference = analysis.reference_errors(self.rows, self.metric,
-                                                            study.reference)
+        self.reference = analysis.reference_of(self.rows, self.metric, study.reference)
         name, self.unit, self.multiplier, self.decimals = SHOWN.get(
             self.metric, (self.metric.replace("_", " "), "", 1.0, 3))
         self.label = f"{name} [{self.unit}]" if self.unit else name
@@ -48,17 +47,25 @@ class Findings:
     @property
     def has_intervals(self):
         """Whether every scenario has the seeds to say how far results scatter."""
-        return analysis.fewest_seeds(analysis.recordings_of(self.rows)) > 1
+        return analysis.enough_seeds(list(self.reference.errors))
 
     @property
     def sampled(self):
         return self.study.design.kind in designs.SAMPLED
 
     @property
+    def compared_text(self):
+        """ ", on 5 of 6 recordings" where not all of them could be compared."""
+        used, count = len(self.reference.errors), self.reference.recordings
+        return f", on {used} of {count} recordings" if 0 < used < count else ""
+
+    @property
     def ratio_label(self):
-        if self.exact_reference:
-            return f"error / error of {self.study.reference}"
-        return "error / median over settings"
+        if not self.reference.errors:
+            return "error"
+        other = (f"error of {self.study.reference}" if self.reference.is_marked else
+                 "median over settings")
+        return f"error / {other}{self.compared_text}"
 
     def ranked(self):
         return analysis.rank(self.rows, self.metric, self.study.reference)

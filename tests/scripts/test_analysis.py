@@ -69,7 +69,7 @@ class RankTest(unittest.TestCase):
         self.assertGreater(wide.high / wide.low, narrow.high / narrow.low)
 
     def test_one_that_is_better_on_every_seed_is_always_the_best(self):
-        first, second = self.rank({"a": {"g": [0.1, 0.2, 0.9]}, "b": {"g": [0.2, 0.3, 1.0]}})
+        first, second = self.rank({"a": {"g": [0.1, 0.2, 0.9, 1]}, "b": {"g": [0.2, 0.3, 1, 2]}})
         self.assertEqual((first.point, first.best_share, second.best_share), ("a", 1.0, 0.0))
 
     def test_one_that_failed_comes_after_all_that_did_not(self):
@@ -83,10 +83,38 @@ class RankTest(unittest.TestCase):
         rows = rows_of({"a": {"g": [1.0, 1.0]}, "b": {"g": [0.5]}})
         self.assertEqual([item.point for item in analysis.rank(rows, "e", "")], ["a"])
 
-    def test_where_the_reference_failed_the_median_takes_its_place(self):
+    def test_an_interval_that_would_be_the_range_of_the_seeds_is_none(self):
+        for groups, is_one in (({"g": [1.0, 2.0]}, False), ({"g": [1.0, 2.0, 3.0]}, False),
+                               ({"g": [1.0, 2.0, 3.0, 4.0]}, True),
+                               ({"g": [1.0, 2.0, 3.0], "h": [1.0, 2.0, 3.0]}, True),
+                               ({"g": [1.0] * 9, "h": [1.0, 2.0]}, False)):
+            item, _ = self.rank({"a": groups, "b": {name: [1.0] * len(values)
+                                                    for name, values in groups.items()}}, mark="b")
+            self.assertEqual((math.isfinite(item.low), math.isfinite(item.best_share)),
+                             (is_one, is_one), groups)
+
+    def test_errors_are_divided_only_where_the_reference_has_one(self):
+        errors = {"a": {"g": [1.0, 50.0], "h": [4.0]}, "b": {"g": [3.0, 60.0], "h": [8.0]},
+                  "r": {"g": [2.0, None], "h": [2.0]}}
+        first, second, reference = self.rank(errors, mark="r")
+        self.assertEqual([item.point for item in (first, second, reference)], ["a", "b", "r"])
+        self.assertAlmostEqual(first.score, 1.0)  # half and twice: not 50 m of something else
+        self.assertEqual((reference.failed, reference.score), (1, math.inf))
+        found = analysis.reference_of(rows_of(errors, "r"), "e", "reference")
+        self.assertEqual((found.errors, found.recordings, found.is_marked),
+                         ({("g", 1): 2.0, ("h", 1): 2.0}, 3, True))
+
+    def test_without_a_reference_or_where_it_always_failed_there_are_the_medians(self):
         rows = rows_of({"a": {"g": [1.0]}, "b": {"g": [3.0]}, "r": {"g": [None]}}, mark="r")
-        reference, whole = analysis.reference_errors(rows, "e", "reference")
-        self.assertEqual((reference, whole), ({("g", 1): 2.0}, False))
+        for name in ("reference", ""):
+            found = analysis.reference_of(rows, "e", name)
+            self.assertEqual((found.errors, found.is_marked), ({("g", 1): 2.0}, False))
+
+    def test_one_that_fails_where_the_reference_does_is_never_the_best(self):
+        errors = {"r": {"g": [1.0] * 4 + [None]}, "a": {"g": [0.1] * 4 + [None]},
+                  "b": {"g": [1.0] * 4 + [9.0]}}
+        by_name = {item.point: item for item in self.rank(errors, mark="r")}
+        self.assertEqual((by_name["a"].best_share, by_name["b"].best_share), (0.0, 1.0))
 
 
 if __name__ == "__main__":

@@ -145,7 +145,7 @@ class FiguresTest(PretendedTest):
     def test_one_seed_gives_no_intervals(self):
         once = GRID.replace("seeds: [1, 2, 3]", "seeds: [1]")
         _, text = self.report(once)
-        self.assertIn("have one seed only", text)
+        self.assertIn("There are too few seeds", text)
         self.assertNotIn("95 %", text)
         self.assertNotIn("wins", text)
         findings = self.findings(once)
@@ -159,13 +159,49 @@ class FiguresTest(PretendedTest):
         _, text = self.report(GRID)
         self.assertIn("95 % interval", text)
 
+    def test_two_seeds_give_no_intervals(self):
+        _, text = self.report(GRID.replace("seeds: [1, 2, 3]", "seeds: [1, 2]"))
+        self.assertIn("There are too few seeds", text)
+        self.assertNotIn("95 %", text)
+
+    def test_a_value_that_always_fails_matters_most(self):
+        def error_of(levels, _, seed):
+            return None if levels["a.kernel"] == "huber" else 0.01 * levels["a.sigma_m"]
+
+        text = GRID[:GRID.index("marks")] + SEQUENCES
+        sentences = conclusion.sentences(self.findings(text, error_of))
+        self.assertIn("kernel matters most: 18 of 18 runs failed with kernel = huber, and no setting "
+                      "with it ended well on all recordings.", sentences)
+
+    def test_where_a_value_fails_more_often_that_is_said(self):
+        def error_of(levels, group, seed):
+            odd = levels["a.sigma_m"] == 1 and group == "spin_avia" and seed == 3
+            return None if odd and levels["a.kernel"] == "huber" else 0.01
+
+        text = GRID[:GRID.index("marks")] + SEQUENCES
+        sentences = conclusion.sentences(self.findings(text, error_of))
+        self.assertIn("No factor by itself changes the mean error by more than 5 %.", sentences)
+        self.assertIn("1 of 12 runs failed with σ = 1 m, 0 of 12 with σ = 10 m.", sentences)
+
+    def test_where_the_reference_failed_nothing_is_divided_by_it_and_that_is_said(self):
+        def error_of(levels, group, seed):
+            lost = levels == {"a.sigma_m": 1, "a.kernel": "huber"} and seed == 3
+            return None if lost else 0.01
+
+        findings = self.findings(GRID, error_of)
+        self.assertEqual(findings.ratio_label, "error / error of paper, on 4 of 6 recordings")
+        self.assertIn("Its error, on 4 of 6 recordings, is as high as that of “paper”",
+                      conclusion.sentences(findings)[1])
+
     def test_the_conclusion_names_the_best_setting_and_the_factor_that_matters(self):
         sentences = conclusion.sentences(self.findings(GRID))
         self.assertEqual(sentences[0], "The best of 7 settings is σ = 1 m, kernel = none.")
         self.assertIn("Its error is as high as that of “paper”", sentences[1])
         self.assertIn("other seeds might well turn that around", sentences[1])
-        self.assertIn("σ [m] matters most: between its values the mean error differs by a factor "
-                      "of 2.0.", sentences)
+        self.assertIn("σ [m] matters most: 2 of 12 runs failed with σ = 10 m, and no setting with it "
+                      "ended well on all recordings.", sentences)
+        self.assertIn("Between its other values the mean error differs by a factor of 2.0.",
+                      sentences)
         self.assertIn("2 of 7 settings failed on at least one recording.", sentences)
 
     def test_the_best_may_be_the_reference_itself(self):
