@@ -40,7 +40,7 @@ class Factor:
         """What a run with this level sets: {key: text}."""
         if self.settings:
             return self.settings[level]
-        return {key: text_of(level if multiplier is None else rounded(level * multiplier))
+        return {key: text_of(level if multiplier is None else multiplied(level, multiplier))
                 for key, multiplier in self.keys.items()}
 
     def sample(self, share):
@@ -62,9 +62,18 @@ def rounded(value):
     return float(f"{value:.4g}")
 
 
+def multiplied(level, multiplier):
+    """Whole numbers stay what they are, with all their digits."""
+    product = level * multiplier
+    return product if isinstance(product, int) else rounded(product)
+
+
 def text_of(level):
+    """As `--set` wants it: options that count something refuse 4.0."""
     if isinstance(level, bool):
         return "true" if level else "false"
+    if isinstance(level, float) and level.is_integer() and abs(level) < 1e15:
+        level = int(level)
     return repr(level) if isinstance(level, (int, float)) else level
 
 

@@ -50,6 +50,13 @@ class FactorTest(ReadingTest):
         self.assertEqual(factor.options(0.2), {"a.b": "0.2", "c.d": "0.1"})
         self.assertIsNone(factor.key)
 
+    def test_whole_numbers_are_written_without_a_point(self):
+        factor = self.read("{values: [2, 3], keys: {a.b: 1, c.d: 2.0, e.f: 0.5, g.h: 12345}}")
+        self.assertEqual(factor.options(2), {"a.b": "2", "c.d": "4", "e.f": "1", "g.h": "24690"})
+        self.assertEqual(factor.options(3)["e.f"], "1.5")
+        levels = self.read("{from: 2, to: 8, steps: 3}")
+        self.assertEqual([levels.options(level)["f"] for level in levels.levels], ["2", "5", "8"])
+
     def test_names_can_stand_for_sets_of_options(self):
         factor = self.read("{settings: {ours: {}, papers: {expert.map.levels: 1, m.x: true}}}")
         self.assertEqual(factor.options("papers"), {"expert.map.levels": "1", "m.x": "true"})
