@@ -3,6 +3,7 @@
 `x` is a divergence, `-` is not there."""
 import dataclasses
 import math
+import re
 import statistics
 
 from trajlo_batch import results
@@ -15,7 +16,12 @@ METRICS = {"ate_rmse_m": "absolute position error, RMSE [m]",
            "kitti_translation_percent": "KITTI's relative translation error [%]",
            "kitti_rotation_deg_per_m": "KITTI's relative rotation error [°/m]",
            "distance_to_start_m": "distance of the end from the start [m]"}
-LARGER_IS_BETTER = ("times_real_time", "inlier_share", "completeness")
+# Of other columns, such as the length of the path, neither the least nor the most is the best.
+LARGER_IS_BETTER = re.compile("times_real_time|inlier_share|completeness|pairs|lost_at_s"
+                              "|smallest_eigenvalue_.*")
+SMALLER_IS_BETTER = re.compile("(ate|rpe|kitti|share|cpu|wall|estimation_ms)_.*|poses_flagged"
+                               "|peak_memory_mb|distance_to_start_m|rejected_steps"
+                               "|(rounds|iterations)_per_window")
 
 
 @dataclasses.dataclass
@@ -106,10 +112,11 @@ def mark(lines, metric):
 
 
 def best_of(cells, attribute, metric):
-    best = max if metric in LARGER_IS_BETTER else min
+    best = (max if LARGER_IS_BETTER.fullmatch(metric) else
+            min if SMALLER_IS_BETTER.fullmatch(metric) else None)
     values = [float(cell.text) for _, cell in cells if not math.isnan(cell.value)]
     for _, cell in cells:
-        if values and not math.isnan(cell.value) and float(cell.text) == best(values):
+        if best and values and not math.isnan(cell.value) and float(cell.text) == best(values):
             setattr(cell, attribute, True)
 
 

@@ -5,8 +5,9 @@ import shlex
 
 import numpy as np
 
-from trajlo_batch import results
+from trajlo_batch import results, tables
 from trajlo_batch.places import read_json_if
+from trajlo_batch.yaml_lines import SuiteError
 from trajlo_report import files
 
 FLAGS = ("no_points", "gap", "reverted", "not_converged", "degenerate", "lost",
@@ -18,6 +19,14 @@ METRICS = ("cpu_ms_per_data_second", "windows", *COLUMNS.values(), "rejected_ste
            *(f"share_{flag}" for flag in FLAGS))  # besides those of a batch
 LEFT_OUT = ("suite", "configuration", "degenerate", "sequence", "group", "seed", "inlier_share",
             "cpu_s_per_data_second", "data_s", "version", "folder", "command")
+
+
+def check_metric(experiment):
+    """Throws SuiteError for a metric that no run has, or whose least value is not the best."""
+    results.check_metric(experiment, METRICS)
+    if not tables.SMALLER_IS_BETTER.fullmatch(experiment.metric):
+        raise SuiteError(f"{experiment.file}: metric: settings are ranked by the least value, which "
+                         f"is not the best of {experiment.metric}")
 
 
 def window_columns(path, names):

@@ -146,6 +146,21 @@ class TableTest(PretendedTest):
         self.assertEqual(row["cpu_ms_per_data_second"], 500.0)
         self.assertIn("trajlo_run 0.1.0", row["program"])
 
+    def test_a_metric_whose_least_value_is_not_the_best_is_refused(self):
+        def check(metric):
+            text = f"{SMALL}metric: {metric}\n"
+            table.check_metric(read_experiment(self.write("e.yaml", text)))
+
+        for metric in ("ate_rmse_m", "rpe_10m_rmse_m", "kitti_translation_percent", "share_lost",
+                       "cpu_ms_per_data_second", "wall_s", "rounds_per_window"):
+            check(metric)
+        for metric in ("inlier_share", "times_real_time", "smallest_eigenvalue_min", "pairs",
+                       "path_length_m", "points_per_window"):
+            with self.assertRaisesRegex(SuiteError, f"not the best of {metric}"):
+                check(metric)
+        with self.assertRaisesRegex(SuiteError, "did you mean 'inlier_share'"):
+            check("inlier_shar")
+
     def test_every_column_of_windows_and_flags_may_be_the_metric(self):
         row = self.rows()[0]
         for metric in table.METRICS:
