@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The progress of a batch on a terminal."""
+"""The progress of a batch: a bar on a terminal, elsewhere a line for each run that has ended."""
 import shutil
 import time
+
+from trajlo_batch.results import USABLE
 
 
 def clock(seconds):
@@ -10,13 +12,32 @@ def clock(seconds):
     return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
 
 
-class ProgressBar:
-    """One line that is complete over itself; silent where `stream` is not a terminal."""
+class ProgressLines:
+    """For pipes and files."""
 
-    def __init__(self, total, already, stream):
-        self.total, self.already, self.stream = total, already, stream
+    def __init__(self, total, ended, stream):
+        self.total, self.said, self.stream = total, set(ended), stream
+
+    def update(self, ended, _):
+        for folder, status in ended.items():
+            if folder in self.said:
+                continue
+            self.said.add(folder)
+            wall_s = status["wall_s"]
+            took = clock(wall_s) if wall_s >= 60 else f"{wall_s:.1f} s"
+            print(f"{len(self.said)}/{self.total} {folder}: {status['reason']}, {took}",
+                  file=self.stream, flush=True)
+
+    def close(self):
+        pass
+
+
+class ProgressBar:
+    """One line that is written over itself."""
+
+    def __init__(self, total, ended, stream):
+        self.total, self.already, self.stream = total, len(ended), stream
         self.begin = time.monotonic()
-        self.shown = stream.isatty()
 
     def line(self, done, failed, complete, elapsed, width):
         text = f" {done}/{self.total} runs, {failed} x, {clock(elapsed)}"
@@ -29,15 +50,13 @@ class ProgressBar:
         filled = cells * done // max(self.total, 1)
         return f"[{'#' * filled}{'-' * (cells - filled)}]{text}"
 
-    def update(self, done, failed, complete):
-        if not self.shown:
-            return
+    def update(self, ended, complete):
         width = shutil.get_terminal_size().columns
-        line = self.line(done, failed, complete, time.monotonic() - self.begin, width)
+        failed = sum(status["exit_code"] not in USABLE for status in ended.values())
+        line = self.line(len(ended), failed, complete, time.monotonic() - self.begin, width)
         self.stream.write(f"\r\x1b[K{line[:width - 1]}")
         self.stream.flush()
 
     def close(self):
-        if self.shown:
-            self.stream.write("\n")
-            self.stream.flush()
+        self.stream.write("\n")
+        self.stream.flush()

@@ -7,8 +7,7 @@ import subprocess
 import sys
 
 from trajlo_batch.places import ROOT, read_json_if
-from trajlo_batch.progress import ProgressBar
-from trajlo_batch.results import USABLE
+from trajlo_batch.progress import ProgressBar, ProgressLines
 from trajlo_batch.yaml_lines import SuiteError
 
 WORKFLOW = ROOT / "scripts" / "workflow"
@@ -46,20 +45,19 @@ def snakemake_command(output, jobs, slurm, sbatch):
 
 
 def progress(plan):
-    """How many runs have ended, how many of them without a usable result, and how many have all
-    that belongs to them: an evaluation, in a batch a page."""
-    folders = [plan.places.output / run.folder for run in plan.runs]
-    statuses = [read_json_if(folder / "status.json") for folder in folders]
-    codes = [status["exit_code"] for status in statuses if status]
-    complete = sum((folder / plan.suite.goal).is_file() for folder in folders)
-    return len(codes), sum(code not in USABLE for code in codes), complete
+    """{folder: status} of the runs that have ended, and how many have all that belongs to them: an
+    evaluation, in a batch a page."""
+    output, folders = plan.places.output, [run.folder for run in plan.runs]
+    statuses = {folder: read_json_if(output / folder / "status.json") for folder in folders}
+    complete = sum((output / folder / plan.suite.goal).is_file() for folder in folders)
+    return {folder: status for folder, status in statuses.items() if status}, complete
 
 
 def work(plan, jobs, slurm=False, sbatch=""):
     """Lets Snakemake do what is missing; its log is OUTPUT/snakemake.log. Returns its exit code."""
     output = plan.places.output
-    already, _, _ = progress(plan)
-    bar = ProgressBar(len(plan.runs), already, sys.stderr)
+    shown = ProgressBar if sys.stderr.isatty() else ProgressLines
+    bar = shown(len(plan.runs), progress(plan)[0], sys.stderr)
     with (output / "snakemake.log").open("a") as log:
         process = subprocess.Popen(snakemake_command(output, jobs, slurm, sbatch), stdout=log,
                                    stderr=subprocess.STDOUT, start_new_session=True)

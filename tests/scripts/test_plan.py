@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A plan knows what is done, what has changed, and never overwrites a result."""
 import dataclasses
+import io
 import json
 import os
 import unittest
@@ -9,7 +10,7 @@ from support import FolderTest
 
 from trajlo_batch import plan, results
 from trajlo_batch.places import Places
-from trajlo_batch.progress import ProgressBar
+from trajlo_batch.progress import ProgressBar, ProgressLines
 from trajlo_batch.suite import read_suite
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_report import files
@@ -186,16 +187,26 @@ class ResultsTest(PlannedTest):
 
 class ProgressTest(unittest.TestCase):
     def test_the_bar_says_what_is_done_and_when_the_rest_will_be(self):
-        bar = ProgressBar(total=10, already=2, stream=open("/dev/null", "w"))
-        self.addCleanup(bar.stream.close)
+        bar = ProgressBar(10, {"a/b": {}, "a/c": {}}, io.StringIO())
         line = bar.line(done=6, failed=1, complete=2, elapsed=60, width=80)
         self.assertIn("6/10 runs, 1 x, 1:00, 1:00 left", line)
         self.assertLessEqual(len(line), 80)
-        self.assertFalse(bar.shown)
+
+    def test_in_a_pipe_each_run_that_ends_has_a_line(self):
+        stream = io.StringIO()
+        ended = {"a/b": {"reason": "ok", "wall_s": 1, "exit_code": 0}}
+        lines = ProgressLines(3, ended, stream)
+        lines.update(ended, 0)
+        self.assertEqual(stream.getvalue(), "")
+        ended["a/c"] = {"reason": "estimator lost", "wall_s": 75.2, "exit_code": 4}
+        lines.update(ended, 1)
+        lines.update(ended, 2)
+        ended["a/d"] = {"reason": "ok", "wall_s": 3.14, "exit_code": 0}
+        lines.update(ended, 2)
+        self.assertEqual(stream.getvalue(), "2/3 a/c: estimator lost, 1:15\n3/3 a/d: ok, 3.1 s\n")
 
     def test_when_all_runs_have_ended_the_bar_counts_those_that_are_complete(self):
-        bar = ProgressBar(total=10, already=0, stream=open("/dev/null", "w"))
-        self.addCleanup(bar.stream.close)
+        bar = ProgressBar(10, {}, io.StringIO())
         line = bar.line(done=10, failed=0, complete=6, elapsed=60, width=80)
         self.assertIn("10/10 runs, 0 x, 1:00, 6 of them complete", line)
 
