@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 """results.csv, the tables, and one self-contained page about a batch."""
 from trajlo_batch import results, table_formats, tables
-from trajlo_batch.places import ROOT
-from trajlo_batch.published import read_published
+from trajlo_batch.published import published_of
 from trajlo_report import page
 from trajlo_report.files import to_csv, write_atomically
 
@@ -18,11 +17,8 @@ WIDE, WIDE_FIGURES = 760, ("map", "windows")
 
 def make_tables(suite, rows):
     """One for each published table that the suite is compared with, and the suite's own."""
-    found = []
-    for path in suite.published:
-        published = read_published(ROOT / path)
-        name = path.rpartition("/")[2].removesuffix(".yaml")
-        found.append((name, tables.compared_table(suite, rows, published)))
+    found = [(name, tables.compared_table(suite, rows, published))
+             for name, published in published_of(suite)]
     return found + [("table", tables.suite_table(suite, rows)),
                     ("speed", tables.speed_table(suite, rows))]
 

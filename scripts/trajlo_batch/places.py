@@ -31,9 +31,9 @@ class Places:
     def program(self, name):
         return programs_in(self.build) / name
 
-    def find(self, path, base=ROOT):
-        """A path of a suite: relative ones are below `base`, and $VARIABLES are filled in."""
-        return base / os.path.expanduser(os.path.expandvars(path))
+    def find(self, path):
+        """A recording or a truth of a suite, with $VARIABLES filled in."""
+        return self.data / os.path.expanduser(os.path.expandvars(path))
 
 
 def digest(value):

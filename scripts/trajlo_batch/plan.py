@@ -5,12 +5,11 @@ A run is done when its status.json carries the digests of its job. What has chan
 OUTPUT/replaced/ before anything new is written, so that no result is ever overwritten.
 """
 import dataclasses
-import subprocess
 
+from trajlo_batch import checks
 from trajlo_batch.kitti_calib import camera_in_lidar
 from trajlo_batch.places import (ROOT, data_identity, digest, file_digest, identify, read_json_if,
                                  write_json)
-from trajlo_batch.yaml_lines import SuiteError
 
 DONE, MISSING, CHANGED = "done", "missing", "changed"
 
@@ -39,31 +38,12 @@ class Plan:
     missing: dict      # sequence name -> the files that were looked for
 
 
-def effective_options(places, suite, configuration, sequence):
-    """All options of a run as trajlo_run understands them; its refusal ends the batch early."""
-    files = config_files(places, sequence, configuration)
-    values = {**sequence.settings, **configuration.settings}
-    command = [places.program("trajlo_run"), "--show_config", "--show_expert_config"]
-    command += [f"--config={','.join(map(str, files))}"] if files else []
-    command += [f"--set={','.join(f'{k}={v}' for k, v in values.items())}"] if values else []
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise SuiteError(f"{suite.file}: the configuration {configuration.name} on "
-                         f"{sequence.name} is refused: {done.stderr.strip()}")
-    return done.stdout, [str(path) for path in files], values
-
-
 def recording_identity(places, sequence):
     if sequence.scenario:
         return {"scenario": sequence.scenario, "seed": sequence.seed,
                 "duration_s": sequence.duration_s, "parameters": sequence.parameters}
-    paths = [places.find(path, places.data) for path in sequence.recording]
+    paths = [places.find(path) for path in sequence.recording]
     return {"paths": [str(path) for path in paths], "data": [data_identity(path) for path in paths]}
-
-
-def config_files(places, sequence, configuration):
-    return [places.find(path.replace("{data}", str(places.data)))
-            for path in (*sequence.config, *configuration.config)]
 
 
 def files_sought(places, sequence):
@@ -72,7 +52,7 @@ def files_sought(places, sequence):
     paths += [path.replace("{data}/", "") for path in (*sequence.config,
                                                        *sequence.evaluate.values())
               if path.startswith("{data}/")]
-    found = [places.find(path, places.data) for path in paths]
+    found = [places.find(path) for path in paths]
     return [str(path) for path in found if not path.exists()]
 
 
@@ -88,15 +68,19 @@ def evaluation_flags(places, sequence):
     return values
 
 
-def make_run(suite, places, programs, configuration, sequence, cache):
-    key = (sequence.config, configuration.name, tuple(sequence.settings.items()))
+def asked_options(places, suite, configuration, sequence, cache):
+    key = str((sequence.config, configuration.name, sequence.settings, sequence.run))
     if key not in cache:
-        cache[key] = effective_options(places, suite, configuration, sequence)
-    options, files, values = cache[key]
+        cache[key] = checks.effective_options(places, suite, configuration, sequence)
+    return cache[key]
+
+
+def make_run(suite, places, programs, configuration, sequence, cache):
+    options, files, values = asked_options(places, suite, configuration, sequence, cache)
     if sequence.name not in cache:
         cache[sequence.name] = recording_identity(places, sequence)
     recording = cache[sequence.name]
-    truth = places.find(sequence.truth, places.data) if sequence.truth else None
+    truth = places.find(sequence.truth) if sequence.truth else None
     job = {
         "configuration": configuration.name, "sequence": sequence.name,
         "program": programs["trajlo_run"], "recording": recording, "config": files, "set": values,
@@ -131,8 +115,10 @@ def make_plan(suite, places, any_version=False, retry=False):
     names = ["trajlo_run", "trajlo_evaluate"]
     names += ["trajlo_simulate"] if any(item.scenario for item in suite.sequences) else []
     programs = {name: identify(places.program(name)) for name in names}
+    checks.check_pairs(places, suite)
     runs, missing, cache = [], {}, {}
     for configuration, sequence in suite.pairs:
+        asked_options(places, suite, configuration, sequence, cache)  # also where data are missing
         sought = files_sought(places, sequence)
         if sought:
             missing[sequence.name] = sought

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Numbers of a paper, from config/published: rows of approaches over columns of sequences."""
 import dataclasses
+import pathlib
 
+from trajlo_batch import suite_files
 from trajlo_batch.yaml_lines import SuiteError, check, load, texts
 
 KEYS = {"source": str, "caption": str, "metric": str, "unit": str, "decimals": int,
@@ -28,6 +30,12 @@ def is_value(text):
         return float(text) >= 0
     except ValueError:
         return False
+
+
+def published_of(suite):
+    """(name, table) of each file that a suite is compared with."""
+    return [(pathlib.PurePath(word).stem, read_published(suite_files.find(suite.file, word)))
+            for word in suite.published]
 
 
 def read_published(path):

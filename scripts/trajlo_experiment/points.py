@@ -5,12 +5,11 @@ A point's folder is named by what it sets: values that are added to an experimen
 of the others as they are.
 """
 import dataclasses
-import subprocess
 
 import yaml
 
+from trajlo_batch import checks
 from trajlo_batch.places import digest, read_json_if, write_json
-from trajlo_batch.plan import effective_options
 from trajlo_batch.results import flatten
 from trajlo_batch.suite import Configuration
 from trajlo_batch.yaml_lines import SuiteError
@@ -113,21 +112,6 @@ def make_points(experiment, shown, output):
     return tuple(points.values())
 
 
-def scenario_parameters(places, experiment, scenario, parameters):
-    """All parameters of a scenario; the simulator's refusal ends the experiment early."""
-    command = [places.program("trajlo_simulate"), f"--scenario={scenario}", "--list_parameters"]
-    if parameters:
-        command.append(f"--set={','.join(f'{key}={value}' for key, value in parameters.items())}")
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-    except FileNotFoundError as error:
-        raise SuiteError(f"{command[0]} is missing; build it with scripts/build.sh") from error
-    if done.returncode != 0:
-        raise SuiteError(f"{experiment.file}: {done.stderr.strip()}")
-    lines = (line.partition("=") for line in done.stdout.splitlines())
-    return {key: number_or_text(value) for key, _, value in lines}
-
-
 def shown_values(experiment, places):
     """What factors are when no point sets them, as far as that is the same on all sequences."""
     found = []
@@ -136,14 +120,14 @@ def shown_values(experiment, places):
         key = (sequence.config, tuple(sequence.settings.items()))
         if key not in seen:
             nothing = Configuration("its own options", "")
-            text, _, _ = effective_options(places, experiment, nothing, sequence)
+            text, _, _ = checks.effective_options(places, experiment, nothing, sequence)
             seen[key] = dict(flatten(yaml.safe_load(text)))
         values = dict(seen[key])
         if sequence.scenario and any(factor.name.startswith(SIMULATE)
                                      for factor in experiment.factors):
-            listed = scenario_parameters(places, experiment, sequence.scenario,
-                                         sequence.parameters)
-            values.update({f"{SIMULATE}{key}": value for key, value in listed.items()})
+            listed = checks.scenario_parameters(places, experiment, sequence)
+            values.update({f"{SIMULATE}{key}": number_or_text(value)
+                           for key, value in listed.items()})
         found.append(values)
     keys = {factor.name: factor.key for factor in experiment.factors if factor.key}
     return {name: found[0][key] for name, key in keys.items()
@@ -171,8 +155,6 @@ def make_study(experiment, places):
         configuration = Configuration(point.name, point.name, settings=point.options)
         for base in experiment.base_sequences:
             sequence = with_parameters(experiment, base, point.parameters)
-            if sequence.name not in sequences and point.parameters:
-                scenario_parameters(places, experiment, sequence.scenario, sequence.parameters)
             sequences.setdefault(sequence.name, sequence)
             pairs.append((configuration, sequence))
     return Study(experiment, points, shown, tuple(sequences.values()), tuple(pairs))

@@ -5,6 +5,8 @@ import unittest
 
 from support import ROOT, FolderTest
 
+from trajlo_batch import suite_files
+from trajlo_batch.published import published_of
 from trajlo_batch.suite import read_suite
 from trajlo_batch.yaml_lines import SuiteError
 
@@ -102,11 +104,10 @@ class SuiteTest(FolderTest):
         for path in suites:
             with self.subTest(path.name):
                 suite = read_suite(path)
-                for published in suite.published:
-                    self.assertTrue((ROOT / published).is_file(), published)
+                published_of(suite)
                 for file in (file for item in (*suite.sequences, *suite.configurations)
                              for file in item.config if "{data}" not in file):
-                    self.assertTrue((ROOT / file).is_file(), file)
+                    self.assertTrue(suite_files.find(path, file).is_file(), file)
 
     def test_the_simulation_suite_has_a_dozen_scenarios_with_three_seeds(self):
         suite = read_suite(ROOT / "config" / "suites" / "simulation.yaml")

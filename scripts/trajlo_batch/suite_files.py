@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+"""Which files the words of a suite mean."""
+import difflib
+import os
+import pathlib
+
+from trajlo_batch.places import ROOT
+from trajlo_batch.yaml_lines import SuiteError
+
+YAML = (".yaml", ".yml")
+
+
+def named_configs():
+    """{name: file} of the configurations that `trajlo_run --config=NAME` finds."""
+    folder = pathlib.Path(os.environ.get("TRAJLO_CONFIG_DIR") or ROOT / "config")
+    return {file.stem: file for where in (folder, folder / "datasets")
+            for file in sorted(where.glob("*.y*ml"))}
+
+
+def find(suite_file, word, names=None):
+    """A file that a suite names: below the suite's own folder, else below the project's. A word
+    without a slash and .yaml is one of `names`."""
+    path = pathlib.Path(os.path.expanduser(os.path.expandvars(word)))
+    is_name = names is not None and "/" not in word and path.suffix not in YAML
+    if is_name and word in names:
+        return names[word]
+    own = pathlib.Path(suite_file).absolute().parent
+    found = next((folder / path for folder in (own, ROOT) if (folder / path).exists()), None)
+    if found:
+        return found
+    near = difflib.get_close_matches(path.stem, names or {}, 1)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    raise SuiteError(f"{suite_file}: there is no configuration {word}{hint}" if is_name else
+                     f"{suite_file}: there is no {own / path}"
+                     + ("" if path.is_absolute() else f", nor {ROOT / path}") + hint)
+
+
+def configs(places, suite, sequence, configuration):
+    """Those of the sequence, then those of the configuration. What lies below the folder of data
+    sets may be missing, with the data."""
+    names = named_configs()
+    return [pathlib.Path(word.replace("{data}", str(places.data))) if word.startswith("{data}/")
+            else find(suite.file, word, names) for word in (*sequence.config, *configuration.config)]
