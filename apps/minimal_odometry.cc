@@ -2,15 +2,22 @@
 // The library in thirty lines: minimal_odometry FOLDER prints the trajectory in TUM format.
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "core/io/scan_folder.h"
 #include "core/io/stamp_text.h"
 #include "core/odometry/odometry.h"
 
 int main(int argc, char** argv) try {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: minimal_odometry FOLDER_OF_SCANS\n");
-    return 1;
+  const std::string argument = argc == 2 ? argv[1] : "";
+  if (argument.empty() || argument[0] == '-') {
+    const bool is_asked = argument == "--help" || argument == "-h";
+    std::fputs(
+        "usage: minimal_odometry FOLDER_OF_SCANS > trajectory.tum\n"
+        "The library in thirty lines: the trajectory of scans (.pcd, .ply, .bin) in TUM's "
+        "format.\n",
+        is_asked ? stdout : stderr);
+    return is_asked ? 0 : 1;
   }
   trajlo::OdometryOptions options;
   options.window.segments = 4;

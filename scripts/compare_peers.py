@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """trajlo beside KISS-ICP and MAD-ICP, on simulated recordings with exact truth.
 
@@ -7,6 +7,8 @@
 simulates the scenes, runs trajlo and each peer that this Python can import, one thread each, and
 prints a table (Markdown): position RMSE in metres after SE(3) alignment, and seconds of CPU of the
 whole process. What is already in the folder is not made again.
+  peers/bin/python scripts/compare_peers.py --output runs/peers --scenarios office_os0_64 --seeds 1 2
+one scene with two seeds: the median of the errors, and the mean of the times.
 
 All run with the options they come with; KISS-ICP's voxels are a hundredth of its range, 1 m, which
 is wide for rooms: --kiss_icp_voxel_m gives others. The peers have one pose a scan and do not say
@@ -14,7 +16,6 @@ for when: the best of its begin, middle and end counts. MAD-ICP is built on the 
   peers/bin/pip install "scikit-build-core<0.10" pybind11 "cmake<4" ninja
   peers/bin/pip install --no-build-isolation mad-icp
 """
-import argparse
 import importlib.util
 import json
 import pathlib
@@ -27,7 +28,8 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from trajlo_batch import command_line
-from trajlo_batch.places import programs_in
+from trajlo_batch.places import identify, programs_in
+from trajlo_batch.yaml_lines import SuiteError
 from trajlo_campaign import point_arrays
 
 SCENARIOS = ("office_os0_64", "hall_os1_16", "courtyard_os1_16", "corridor_vlp16", "forest_mid360",
@@ -157,21 +159,39 @@ def main():
     if sys.argv[1:2] == ["--follow"]:
         peer, recording, output, voxel_m = sys.argv[2:]
         follow(peer, pathlib.Path(recording), pathlib.Path(output), float(voxel_m))
-        return
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+        return 0
+    parser = command_line.Parser(description=__doc__)
     command_line.add_build_argument(parser)
-    parser.add_argument("--output", type=pathlib.Path, required=True)
-    parser.add_argument("--seeds", type=int, nargs="+", default=[1])
+    parser.add_argument("--output", type=pathlib.Path, required=True,
+                        help="recordings and results: a folder for each scenario and seed")
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1],
+                        help="of the simulated recordings; default: 1")
     parser.add_argument("--scenarios", nargs="+", default=SCENARIOS,
-                        help="of one LiDAR (trajlo_simulate --list)")
+                        help=f"of one LiDAR (trajlo_simulate --list); default: "
+                             f"{', '.join(SCENARIOS)}")
     parser.add_argument("--kiss_icp_voxel_m", type=float, default=0.0,
                         help="in place of KISS-ICP's default")
-    arguments = parser.parse_args()
+    return command_line.guarded(parser, compare)
+
+
+def simulate(programs, scenario, seed, recording):
+    if (recording / "truth.tum").exists():
+        return
+    done = subprocess.run([programs / "trajlo_simulate", scenario, f"--seed={seed}", "-o", recording,
+                           "--overwrite"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                          text=True, check=False)
+    if done.returncode:
+        raise SuiteError(f"{scenario} with seed {seed} is not simulated: {done.stderr.strip()}")
+
+
+def compare(arguments):
     programs = programs_in(arguments.build.resolve())
+    for name in ("trajlo_simulate", "trajlo_run", "trajlo_evaluate"):
+        identify(programs / name)  # refuses one that is missing
     peers = [name for name in PEERS if importlib.util.find_spec(name)]
     if not peers:
-        parser.error(f"{sys.executable} can import none of {', '.join(PEERS)}; see --help")
+        raise SuiteError(f"{sys.executable} can import none of {', '.join(PEERS)}; --help says how "
+                         "to install them")
     print("| scenario | trajlo RMSE [m] | CPU [s] |" +
           "".join(f" {PEERS[name]} RMSE [m] | CPU [s] |" for name in peers))
     print("|---|" + "---|---|" * (1 + len(peers)))
@@ -180,16 +200,15 @@ def main():
         for seed in arguments.seeds:
             folder = arguments.output / f"{scenario}-s{seed}"
             recording = folder / "recording"
-            if not (recording / "truth.tum").exists():
-                subprocess.run([programs / "trajlo_simulate", scenario, f"--seed={seed}", "-o",
-                                recording, "--overwrite"], check=True, stdout=subprocess.DEVNULL)
+            simulate(programs, scenario, seed, recording)
             for method, of_method in runs.items():
                 voxel_m = arguments.kiss_icp_voxel_m if method == "kiss_icp" else 0.0
                 name = f"{method}_{voxel_m:g}m" if voxel_m else method
                 of_method.append(run_one(method, programs, recording, folder / name, voxel_m))
         print(f"| `{scenario}` | " + " | ".join(cell(of_method) for of_method in runs.values()) +
               " |", flush=True)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
