@@ -3,6 +3,7 @@
 import math
 
 from matplotlib import pyplot as plt
+from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from trajlo_experiment.drawing import SHAPES, below, open_frame
@@ -58,5 +59,6 @@ def draw_levels(findings, factor):
         for place in range(1, len(bins)):
             axes.axhline(place - 0.5, color=theme.GRID, lw=0.5)
         open_frame(axes)
-    below(figure, grid[0].get_legend_handles_labels()[0])
+    below(figure, [*grid[0].get_legend_handles_labels()[0],
+                   Line2D([], [], color=theme.TEXT, lw=1.6, alpha=0.4, label="quartiles")])
     return figure

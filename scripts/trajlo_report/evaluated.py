@@ -54,6 +54,18 @@ def legend_width(labels, width_in):
     return int(np.clip(width_in * 14 / (longest + 6), 1, len(labels)))
 
 
+def legend_over(figure, axes):
+    """A legend over the whole figure, which grows for it."""
+    handles, labels = axes.get_legend_handles_labels()
+    width, height = figure.get_size_inches()
+    columns = legend_width(labels, width)
+    legend_in = 0.1 + 0.16 * -(-len(labels) // columns)
+    figure.set_size_inches(width, height + legend_in)
+    figure.get_layout_engine().set(rect=(0.0, 0.0, 1.0, height / (height + legend_in)))
+    figure.legend(handles, labels, loc="upper center", ncol=columns, frameon=False,
+                  borderaxespad=0.1, columnspacing=1.2)
+
+
 def legend_above(figure, axes):
     handles, labels = axes.get_legend_handles_labels()
     columns = legend_width(labels, figure.get_size_inches()[0])

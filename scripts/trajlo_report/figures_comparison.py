@@ -4,6 +4,8 @@ import numpy as np
 
 from trajlo_report import theme
 from trajlo_report.comparison_words import changes_energy
+from trajlo_report.evaluated import legend_over
+from trajlo_report.log_axis import plain_log
 
 SMALLEST_M = 1e-16  # solutions that are equal are drawn here
 FAST = 3.0          # bars of stages show variants up to so many times the yardstick's time
@@ -94,12 +96,13 @@ def draw_stages(variants, width_in):
     bars.set_yticks(place, [name for name, is_fast in zip(names, fast) if is_fast])
     bars.set(xlabel="time per window [ms]")
     bars.invert_yaxis()
-    bars.legend(fontsize=6, ncol=3, loc="lower left", bbox_to_anchor=(0.0, 1.0))
     dots.plot(totals / totals[0], np.arange(len(names)), "o", color=theme.METHODS[0], ms=4)
     dots.axvline(1.0, color=theme.TEXT, lw=0.6)
     dots.set_yticks(np.arange(len(names)), names)
-    dots.set(xlabel=f"time, multiple of {names[0]}", xscale="log")
+    dots.set(xlabel=f"time, as a multiple\nof {names[0]}'s", xscale="log")
+    plain_log(dots.xaxis, *dots.get_xlim())
     dots.invert_yaxis()
+    legend_over(figure, bars)
     return figure
 
 

@@ -26,10 +26,10 @@ def draw_over_time(estimates, width_in=theme.COLUMN_IN):
             axes.plot(at - origin, values, lw=0.9, label=estimate.name,
                       **theme.method_style(index))
         axes.set(ylabel=f"{AXES[axis]} [m]", ylim=sane_range(items, axis))
-    draw_errors(grid[3], items, origin, "translation_error_m", "error [m]")
+    draw_errors(grid[3], items, origin, "translation_error_m", "position\nerror [m]")
     if with_rotation:
         rotating = [item for item in items if has_rotation(item[1])]
-        draw_errors(grid[4], rotating, origin, "rotation_error_deg", "error [°]")
+        draw_errors(grid[4], rotating, origin, "rotation_error_deg", "rotation\nerror [°]")
     grid[-1].set_xlabel("time [s]")
     figure.align_ylabels(grid)
     legend_above(figure, grid[0])

@@ -7,15 +7,15 @@ import matplotlib.ticker
 import numpy as np
 
 from trajlo_report import theme
-from trajlo_report.evaluated import (AXES, bounds, drawable, legend_width, longest_truth,
-                                     with_gaps)
+from trajlo_report.evaluated import (AXES, bounds, drawable, legend_over, legend_width,
+                                     longest_truth, with_gaps)
 
 
 def draw_planes(estimates, width_in=theme.COLUMN_IN):
     """Truth and estimates in the planes xy, xz and zy, one scale for all: a third-angle drawing."""
     low, high = bounds(estimates)
     dx, dy, dz = high - low
-    names = ["truth"] + [estimate.name for _, estimate in drawable(estimates)]
+    names = ["truth", *(estimate.name for _, estimate in drawable(estimates)), "start"]
     legend_columns = legend_width(names, width_in)
     top = 0.12 + 0.16 * -(-len(names) // legend_columns)
     left, right, bottom, gap = 0.55, 0.08, 0.4, 0.42
@@ -42,10 +42,10 @@ def draw_planes(estimates, width_in=theme.COLUMN_IN):
             _, positions = with_gaps(estimate.times, estimate.positions)
             axes.plot(positions[:, i], positions[:, j], lw=0.9, label=estimate.name,
                       **theme.method_style(index))
-        axes.plot(truth[0, i], truth[0, j], "o", ms=3.5, color=theme.START, zorder=5)
+        axes.plot(truth[0, i], truth[0, j], "o", ms=3.5, color=theme.START, zorder=5, label="start")
         axes.set(xlim=(low[i], high[i]), ylim=(low[j], high[j]))
         axes.xaxis.set_major_locator(ticks(scale * (high - low)[i] / 0.45))
-        axes.yaxis.set_major_locator(ticks(scale * (high - low)[j] / 0.25))
+        axes.yaxis.set_major_locator(ticks(scale * (high - low)[j] / 0.25, 2))
     panels[0][0].set(ylabel="y [m]")
     panels[1][0].set(xlabel="x [m]", ylabel="z [m]")
     panels[2][0].set(xlabel="z [m]")
@@ -55,14 +55,15 @@ def draw_planes(estimates, width_in=theme.COLUMN_IN):
     return figure
 
 
-def ticks(how_many):
-    return matplotlib.ticker.MaxNLocator(max(1, int(how_many)), min_n_ticks=1,
+def ticks(how_many, least=1):
+    """Two tell the scale, and three fit into the lowest strip; side by side they may not."""
+    return matplotlib.ticker.MaxNLocator(max(least, int(how_many)), min_n_ticks=least,
                                          steps=[1, 2, 2.5, 5, 10])
 
 
 def widest_plane(low, high):
-    """The two axes with the largest extents, in the order of the alphabet."""
-    return sorted(np.argsort(high - low)[-2:])
+    """The two axes with the largest extents, in the order of the alphabet; of equal ones the first."""
+    return sorted(np.argsort(-np.round(high - low, 6), kind="stable")[:2])
 
 
 def draw_error_on_path(estimates, width_in=theme.COLUMN_IN):
@@ -84,7 +85,7 @@ def draw_error_on_path(estimates, width_in=theme.COLUMN_IN):
     _, truth = longest_truth(estimates)
     lines = None
     for axes, (_, estimate) in zip(grid.flat, items):
-        axes.plot(truth[:, i], truth[:, j], color=theme.TRUTH, lw=0.5, alpha=0.5)
+        axes.plot(truth[:, i], truth[:, j], color=theme.TRUTH, lw=0.5, alpha=0.5, label="truth")
         positions = estimate.positions[:, [i, j]]
         pieces = np.stack([positions[:-1], positions[1:]], axis=1)
         error = estimate.errors["translation_error_m"]
@@ -92,7 +93,7 @@ def draw_error_on_path(estimates, width_in=theme.COLUMN_IN):
             pieces, cmap=theme.ERROR_MAP, norm=norm, lw=2.0, rasterized=len(pieces) > 1000)
         lines.set_array(0.5 * (error[:-1] + error[1:]))
         axes.add_collection(lines)
-        axes.plot(*truth[0, [i, j]], "o", ms=3.5, color=theme.START, zorder=5)
+        axes.plot(*truth[0, [i, j]], "o", ms=3.5, color=theme.START, zorder=5, label="start")
         axes.set(xlim=(low[i], high[i]), ylim=(low[j], high[j]), aspect="equal")
         if len(items) > 1:
             axes.set_title(estimate.name)
@@ -102,6 +103,7 @@ def draw_error_on_path(estimates, width_in=theme.COLUMN_IN):
         axes.set_xlabel(f"{AXES[i]} [m]")
     for axes in grid[:, 0]:
         axes.set_ylabel(f"{AXES[j]} [m]")
+    legend_over(figure, grid[0, 0])
     bar = figure.colorbar(lines, ax=grid, fraction=0.05, pad=0.02, extend="max")
     bar.set_label("translation error [m]")
     bar.outline.set_linewidth(0.5)

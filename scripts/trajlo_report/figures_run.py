@@ -20,6 +20,7 @@ def draw_position(axes, run):
         axes.plot(run.times - run.begin, run.positions[:, axis], color=theme.METHODS[axis],
                   label=name)
     axes.set_ylabel("position [m]")
+    axes.margins(y=0.35)  # room for the legend
     axes.legend(loc="upper left", ncol=3)
 
 
@@ -27,7 +28,7 @@ def draw_error(axes, run):
     times, error = with_gaps(run.estimate.times, run.estimate.errors["translation_error_m"])
     in_cm = np.nanmax(error) < 1.0
     axes.plot(times - run.begin, 100 * error if in_cm else error, color=theme.TEXT)
-    axes.set(ylabel=f"error [{'cm' if in_cm else 'm'}]", ylim=(0, None))
+    axes.set(ylabel=f"position\nerror [{'cm' if in_cm else 'm'}]", ylim=(0, None))
 
 
 def draw_inliers(axes, run):
