@@ -181,4 +181,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (files.ReportError, OSError) as error:
+        sys.exit(f"check_covariance.py: {error}")

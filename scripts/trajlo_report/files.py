@@ -26,14 +26,25 @@ def write_atomically(path, text):
 
 def read_tum(path):
     """Times in whole ns, positions (m) and quaternions (x y z w) of a TUM file; an unfinished last
-    line is left out."""
+    line is left out. Throws ReportError at any other that is no pose."""
     times_ns, values = [], []
-    for line in pathlib.Path(path).read_text(errors="replace").splitlines():
+    lines = pathlib.Path(path).read_text(errors="replace").splitlines(keepends=True)
+    for number, line in enumerate(lines, 1):
         fields = line.split()
-        if len(fields) == 8 and not line.startswith("#"):
+        if not fields or line.startswith("#"):
+            continue
+        try:
             # Stamps since 1970 have more digits than a float.
-            times_ns.append(round(decimal.Decimal(fields[0]).scaleb(9)))
-            values.append([float(field) for field in fields[1:]])
+            time_ns = round(decimal.Decimal(fields[0]).scaleb(9))
+            pose = [float(field) for field in fields[1:]]
+            if len(pose) != 7:
+                raise ValueError
+        except (ArithmeticError, ValueError) as error:
+            if not line.endswith("\n"):
+                break
+            raise ReportError(f"{path}: line {number} is not 'stamp x y z qx qy qz qw'") from error
+        times_ns.append(time_ns)
+        values.append(pose)
     values = np.array(values).reshape(-1, 7)
     return np.array(times_ns, dtype=np.int64), values[:, :3], values[:, 3:]
 
@@ -53,8 +64,11 @@ def read_ply_columns(path):
     lines = head.decode("ascii", errors="replace").splitlines()
     if "format binary_little_endian 1.0" not in lines:
         raise ReportError(f"{path} is not a binary little-endian PLY")
-    count = next(int(line.split()[2]) for line in lines if line.startswith("element vertex"))
-    names = [line.split()[2] for line in lines if line.startswith("property float")]
+    counts = [int(line.split()[2]) for line in lines if line.startswith("element ")]
+    properties = [line.split()[1:] for line in lines if line.startswith("property ")]
+    if len(counts) != 1 or any(kind != "float" for kind, *_ in properties):
+        raise ReportError(f"{path} has more than vertices of floats, which is not read")
+    count, names = counts[0], [name for _, name in properties]
     begin = len(head) + len(b"end_header\n")
     if len(data) < begin + 4 * count * len(names):
         raise ReportError(f"{path} ends early: {count} points were announced")

@@ -42,10 +42,9 @@ def speeds(times, positions):
 
 def in_gaps(times, known_times, most_s=1.0):
     """Where the nearest known time is too far to say anything."""
-    index = np.clip(np.searchsorted(known_times, times), 1, max(len(known_times) - 1, 1))
-    near = np.minimum(np.abs(times - known_times[np.minimum(index, len(known_times) - 1)]),
-                      np.abs(times - known_times[index - 1]))
-    return near > most_s
+    after = np.searchsorted(known_times, times)
+    known = np.concatenate([[-np.inf], known_times, [np.inf]])
+    return np.minimum(times - known[after], known[after + 1] - times) > most_s
 
 
 def interpolated(times, known_times, values):
