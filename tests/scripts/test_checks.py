@@ -119,6 +119,8 @@ class SuiteFilesTest(FolderTest):
         self.refuse("oster", "s.yaml: there is no configuration oster; did you mean ouster?")
         self.refuse("mine/oster.yaml", f"there is no {self.folder}/mine/oster.yaml, nor "
                                        f"{ROOT}/mine/oster.yaml; did you mean ouster?")
+        self.write("mine/austere.yaml", "")
+        self.refuse("mine/oustere.yaml", "did you mean austere.yaml?")
         self.refuse("/no/a.yaml", "there is no /no/a.yaml$")
 
     def test_published_tables_are_found_in_the_same_way(self):
