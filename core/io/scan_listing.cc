@@ -141,10 +141,6 @@ ScanListing ListScans(const fs::path& path) {
     throw InputError(path, "there is no such file or folder", "Check the path.");
   }
   if (!fs::is_directory(path, error)) throw InputError(path, "this is not a folder", kMend);
-  if (fs::exists(path / "run.json", error) && fs::exists(path / "trajectory.tum", error)) {
-    throw InputError(path, "this is a result of trajlo_run, not a recording",
-                     "trajlo_convert turns it into other formats.");
-  }
 
   std::vector<fs::path> known;
   for (const char* name : kKnownFolders) {
@@ -160,6 +156,11 @@ ScanListing ListScans(const fs::path& path) {
                               path.string() + " itself are left out");
     }
     return listing;
+  }
+  // A result holds point clouds, too; with the scans in a folder of their own it is no obstacle.
+  if (fs::exists(path / "run.json", error) && fs::exists(path / "trajectory.tum", error)) {
+    throw InputError(path, "this is a result of trajlo_run, not a recording",
+                     "trajlo_convert turns it into other formats.");
   }
   if (content.ScanCount() > 0) return MakeListing(path, std::move(content));
 
