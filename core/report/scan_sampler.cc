@@ -48,59 +48,78 @@ class PlaceAlong {
   SegmentMotion motion_{SE3(), SE3()};
 };
 
+/// No key is as small as this.
+constexpr float kUnusable = std::numeric_limits<float>::quiet_NaN();
+
 std::int64_t FloorDivide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
 }  // namespace
 
 void ScanSampler::Note(const LidarScan& scan) {
-  for (std::size_t i = variates_.size(); i < scan.points.size(); ++i) {
-    variates_.push_back(static_cast<float>(-std::log(EvenShare(i))));
-  }
-  const double min_squared = segmenter_.min_range_m * segmenter_.min_range_m;
-  const double max_squared = segmenter_.max_range_m * segmenter_.max_range_m;
-  const auto lidar = static_cast<std::uint16_t>(scan.lidar_id);
-  std::int64_t begin_ns = 0, end_ns = 0;  // of the moment of the last point
-  Moment* moment = nullptr;               // if it is kept
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const LidarPoint& point = scan.points[i];
-    if (!origin_ns_) origin_ns_ = point.t_ns;
-    if (point.t_ns < begin_ns || point.t_ns >= end_ns) {
-      const std::int64_t index = FloorDivide(point.t_ns - *origin_ns_, options_.moment_ns);
-      begin_ns = *origin_ns_ + index * options_.moment_ns;
-      end_ns = begin_ns + options_.moment_ns;
-      moment = MomentAt(index);
+  const std::vector<LidarPoint>& points = scan.points;
+  SetKeys(points);
+  std::size_t first = 0;
+  while (first < points.size()) {
+    if (!origin_ns_) origin_ns_ = points[first].t_ns;
+    const std::int64_t index = FloorDivide(points[first].t_ns - *origin_ns_, options_.moment_ns);
+    const std::int64_t begin_ns = *origin_ns_ + index * options_.moment_ns;
+    std::size_t end = first + 1;
+    while (end < points.size() && points[end].t_ns >= begin_ns &&
+           points[end].t_ns < begin_ns + options_.moment_ns) {
+      ++end;
     }
-    if (moment == nullptr) continue;
-    const double squared = point.xyz_m.cast<double>().squaredNorm();
-    const bool is_usable = squared >= min_squared && squared <= max_squared;  // no NaN
-    if (!is_usable) continue;
-    // Weighted sampling without replacement: the smallest of exponential variates whose rates are
-    // the weights (Efraimidis and Spirakis, 2006).
-    const float key = variates_[i] / std::sqrt(static_cast<float>(squared));
-    if (key > moment->largest_key) continue;
-    moment->points.push_back({point.xyz_m, point.intensity, point.t_ns, key, lidar});
-    if (moment->points.size() > 2 * options_.points_per_moment) Thin(moment);
-  }
-  for (auto& [index, kept] : moments_) {
-    Thin(&kept);
-    kept.points.shrink_to_fit();
+    if (index % stride_ == 0) Take(scan, first, end, &moments_[index]);
+    first = end;
   }
   while (moments_.size() > options_.max_moments) DropEveryOther();
 }
 
-void ScanSampler::Thin(Moment* moment) {
-  std::vector<Kept>& points = moment->points;
+/// Weighted sampling without replacement: those with the smallest of exponential variates whose
+/// rates are the weights (Efraimidis and Spirakis, 2006).
+void ScanSampler::SetKeys(const std::vector<LidarPoint>& points) {
+  for (std::size_t i = variates_.size(); i < points.size(); ++i) {
+    variates_.push_back(static_cast<float>(-std::log(EvenShare(i))));
+  }
+  const double min_squared = segmenter_.min_range_m * segmenter_.min_range_m;
+  const double max_squared = segmenter_.max_range_m * segmenter_.max_range_m;
+  keys_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double squared = points[i].xyz_m.cast<double>().squaredNorm();
+    const bool is_usable = squared >= min_squared && squared <= max_squared;  // no NaN
+    keys_[i] = is_usable ? variates_[i] / std::sqrt(static_cast<float>(squared)) : kUnusable;
+  }
+}
+
+/// Points [first, end) of a scan, which lie in one moment.
+void ScanSampler::Take(const LidarScan& scan, std::size_t first, std::size_t end, Moment* moment) {
   const std::size_t count = options_.points_per_moment;
-  if (points.size() <= count) return;
-  keys_.clear();
-  for (const Kept& kept : points) keys_.push_back(kept.key);
-  const auto largest = keys_.begin() + static_cast<std::ptrdiff_t>(count) - 1;
-  std::nth_element(keys_.begin(), largest, keys_.end());
-  moment->largest_key = *largest;
+  std::vector<Kept>& points = moment->points;
+  smallest_.clear();
+  for (const Kept& kept : points) smallest_.push_back(kept.key);
+  float& bound = moment->largest_key;
+  const auto drop_larger = [&] {
+    if (smallest_.size() <= count) return;
+    const auto last = smallest_.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+    std::nth_element(smallest_.begin(), last, smallest_.end());
+    bound = *last;
+    smallest_.resize(count);
+  };
+  for (std::size_t i = first; i < end; ++i) {
+    if (!(keys_[i] <= bound)) continue;
+    smallest_.push_back(keys_[i]);
+    if (smallest_.size() > 2 * count) drop_larger();
+  }
+  drop_larger();
   points.erase(std::remove_if(points.begin(), points.end(),
-                              [&](const Kept& kept) { return kept.key > *largest; }),
+                              [&](const Kept& kept) { return kept.key > bound; }),
                points.end());
-  if (points.size() > count) points.resize(count);  // equal keys
+  points.reserve(smallest_.size());
+  const auto lidar = static_cast<std::uint16_t>(scan.lidar_id);
+  for (std::size_t i = first; i < end && points.size() < count; ++i) {
+    if (!(keys_[i] <= bound)) continue;
+    const LidarPoint& point = scan.points[i];
+    points.push_back({point.xyz_m, point.intensity, point.t_ns, keys_[i], lidar});
+  }
 }
 
 void ScanSampler::DropEveryOther() {

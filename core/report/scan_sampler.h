@@ -59,15 +59,15 @@ class ScanSampler {
     float largest_key = std::numeric_limits<float>::infinity();
   };
 
-  /// Null if it is not kept.
-  Moment* MomentAt(std::int64_t index) { return index % stride_ == 0 ? &moments_[index] : nullptr; }
-  void Thin(Moment* moment);
+  void SetKeys(const std::vector<LidarPoint>& points);
+  void Take(const LidarScan& scan, std::size_t first, std::size_t end, Moment* moment);
   void DropEveryOther();
 
   SegmenterOptions segmenter_;
   ScanSamplingOptions options_;
   std::vector<float> variates_;  ///< Exponential ones of rate 1, by the index of a point.
-  std::vector<float> keys_;
+  std::vector<float> keys_;      ///< Of the points of the present scan.
+  std::vector<float> smallest_;  ///< Of a moment, in no order.
   std::optional<std::int64_t> origin_ns_;
   std::int64_t stride_ = 1;  ///< Moments from one that is kept to the next.
   std::map<std::int64_t, Moment> moments_;

@@ -7,15 +7,21 @@
 namespace trajlo {
 
 Matrix6d PoseCovariance(const WindowNormalEquations& window, int k) {
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(window.H);
-  const Eigen::VectorXd pivots = ldlt.vectorD();
-  if (ldlt.info() != Eigen::Success || !(pivots.minCoeff() > 1e-14 * pivots.maxCoeff())) {
+  // With that pose last, its block of the factor L holds what is left when all others are
+  // eliminated: the information L Lᵀ.
+  Eigen::MatrixXd H = window.H;
+  if (6 * (k + 1) < H.rows()) {
+    H.middleRows<6>(6 * k).swap(H.bottomRows<6>());
+    H.middleCols<6>(6 * k).swap(H.rightCols<6>());
+  }
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(H);
+  const Eigen::VectorXd pivots = H.diagonal().cwiseAbs2();
+  if (factor.info() != Eigen::Success || !(pivots.minCoeff() > 1e-14 * pivots.maxCoeff())) {
     return Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
   }
-  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(window.H.rows(), 6);
-  unit.middleRows<6>(6 * k).setIdentity();
-  const Matrix6d covariance = ldlt.solve(unit).middleRows<6>(6 * k);
-  return 0.5 * (covariance + covariance.transpose());
+  const Matrix6d L = H.bottomRightCorner<6, 6>();
+  const Matrix6d inverse = L.triangularView<Eigen::Lower>().solve(Matrix6d::Identity());
+  return inverse.transpose() * inverse;
 }
 
 }  // namespace trajlo
