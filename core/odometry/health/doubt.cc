@@ -44,7 +44,10 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
   const bool began = held_until_ns_ || (unheld & ~kFlagDegenerate) != 0;
   if (unheld == 0 || !began) held_until_ns_ = window.EndNs();
   if (unheld != 0) {
-    if (flags_ != 0 || MayHaveMoved(window.EndNs(), density)) flags_ = unheld;
+    if (flags_ != 0 || MayHaveMoved(window.EndNs(), density)) {
+      flags_ = unheld;
+      causes_ |= unheld;
+    }
   } else if (flags_ == 0) {
     const double usual = usual_agreement_.value_or(1.0);
     usual_agreement_ = usual + (statistics.agreement - usual) / kWindows;
@@ -53,6 +56,7 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
                                                        return Agrees(window, segment, kToTrust);
                                                      })) {
     flags_ = 0;
+    causes_ = 0;
   }
 }
 
@@ -62,8 +66,10 @@ bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const 
 }
 
 bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
-  // A body that was never trusted has little of a map that could be spoilt.
-  return flags_ == 0 || !usual_agreement_ || Agrees(window, segment, kToExtendMap);
+  // A body that was never trusted has little of a map that could be spoilt. And one that slid along
+  // a direction which its points leave open drifts, whatever its map.
+  const bool may_be_elsewhere = (causes_ & ~unsigned{kFlagDegenerate}) != 0;
+  return !may_be_elsewhere || !usual_agreement_ || Agrees(window, segment, kToExtendMap);
 }
 
 bool DoubtWatch::Agrees(const Window& window, const Segment& segment, double on_map) const {

@@ -14,7 +14,8 @@ namespace trajlo {
 /// planes it was on; also behind a pause, if the first window there does not settle. It may settle
 /// on planes to which it does not belong, and a map that grew there would prove it right. So poses
 /// stay flagged, and the map does not grow, until the points agree with it in all directions as
-/// well as they did before.
+/// well as they did before. Where all that was wrong is that the points left a direction open, the
+/// map grows: a fast body would soon be out of it.
 class DoubtWatch {
  public:
   /// After `window` was judged; `density` is that of the acceleration, see MotionPrior.
@@ -30,6 +31,7 @@ class DoubtWatch {
   bool Agrees(const Window& window, const Segment& segment, double on_map) const;
 
   unsigned flags_ = 0;
+  unsigned causes_ = 0;  ///< All flags since the doubt began.
   std::optional<std::int64_t> held_until_ns_;
   std::optional<double> usual_agreement_;  ///< MapAgreement::worst, of late, without doubt.
 };

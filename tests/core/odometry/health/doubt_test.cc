@@ -194,6 +194,23 @@ TEST(DoubtWatch, AgreementIsMeasuredByWhatIsUsual) {
   EXPECT_NE(InDoubt(restless).Add(0, kWrongWall), 0U);
 }
 
+TEST(DoubtWatch, AnOpenDirectionAloneDoesNotKeepTheMapFromGrowing) {
+  Watched body;
+  for (int i = 0; i < 200; ++i) body.Add(0);
+  for (int i = 0; i < 10; ++i) body.Add(kFlagDegenerate);
+  EXPECT_TRUE(body.MayEnterMap(kNewPart)) << "it moves on, and would be out of its map";
+  EXPECT_NE(body.Add(0, kNewPart), 0U) << "its poses are in doubt all the same";
+  EXPECT_TRUE(body.MayEnterMap(kNewPart));
+
+  body.Add(kFlagNoPoints);
+  EXPECT_EQ(body.Add(kFlagDegenerate, kNewPart), +kFlagDegenerate);
+  EXPECT_FALSE(body.MayEnterMap(kNewPart)) << "it may be anywhere since it saw nothing";
+  EXPECT_EQ(body.Add(0), 0U);
+  body.Add(kFlagDegenerate);
+  body.Add(kFlagDegenerate);
+  EXPECT_TRUE(body.MayEnterMap(kNewPart)) << "that was another doubt";
+}
+
 TEST(DoubtWatch, InDoubtOnlyWhatAgreesEntersTheMap) {
   Watched body = InDoubt();
   EXPECT_TRUE(body.MayEnterMap({}));
