@@ -9,8 +9,11 @@ constexpr double kSpan_s = 3.0;
 /// ... more than this share did not settle, or were reverted: planes that never settle are not
 /// those of the scene. A fast turn to and fro leaves half of them unsettled, at the right place ...
 constexpr double kMaxUnsettledShare = 0.8;
-/// ... but where the poses have a flag, too, half is enough.
+/// ... but where the poses have a flag that speaks against them, too, half is enough.
 constexpr double kMaxDoubtfulShare = 0.5;
+/// These do not: that the rounds ran out says no more than that a window is unsettled, and in a
+/// direction that is left open the planes may be those of the scene.
+constexpr unsigned kNoDoubt = kFlagNotConverged | kFlagDegenerate;
 
 std::int64_t Nanoseconds(double s) { return static_cast<std::int64_t>(s * 1e9); }
 
@@ -35,8 +38,7 @@ bool LossWatch::TooFewInliers(const WindowStatistics& window) {
 
 bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   const bool is_unsettled = (window.flags & kFlagReverted) != 0 || window.IsRestless();
-  // That the rounds ran out says no more than that it is unsettled.
-  const bool is_doubtful = is_unsettled && (window.flags & ~unsigned{kFlagNotConverged}) != 0;
+  const bool is_doubtful = is_unsettled && (window.flags & ~kNoDoubt) != 0;
   recent_.push_back({window.end_ns, is_unsettled, is_doubtful});
   unsettled_ += is_unsettled ? 1 : 0;
   doubtful_ += is_doubtful ? 1 : 0;

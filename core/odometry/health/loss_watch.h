@@ -44,7 +44,7 @@ class LossWatch {
   struct Window {
     std::int64_t end_ns;
     bool is_unsettled;
-    bool is_doubtful;  ///< Unsettled, and its pose has a flag.
+    bool is_doubtful;  ///< Unsettled, and a flag speaks against its pose.
   };
   bool TooFewInliers(const WindowStatistics& window);
   bool TooFewSettled(const WindowStatistics& window);

@@ -63,7 +63,8 @@ TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
 }
 
 TEST(LossWatch, AsksForMoreWindowsThatSettleWherePosesHaveAFlag) {
-  for (const unsigned flags : {0u, +kFlagNotConverged, +kFlagDegenerate, +kFlagGap}) {
+  for (const unsigned flags :
+       {0u, +kFlagNotConverged, +kFlagDegenerate, +kFlagGap, +kFlagFewInliers}) {
     LossWatch watch({});
     bool is_lost = false;
     for (int i = 0; i < 200; ++i) {
@@ -71,7 +72,7 @@ TEST(LossWatch, AsksForMoreWindowsThatSettleWherePosesHaveAFlag) {
       window.flags = flags;
       is_lost |= watch.Update(window).has_value();
     }
-    EXPECT_EQ(is_lost, (flags & ~unsigned{kFlagNotConverged}) != 0) << flags;
+    EXPECT_EQ(is_lost, flags == kFlagGap || flags == kFlagFewInliers) << flags;
   }
 }
 
