@@ -14,6 +14,27 @@ double Distance(const Eigen::Affine3d& a, const Eigen::Affine3d& b) {
   return (b.translation() - a.translation()).norm();
 }
 
+double AngleDeg(const Eigen::Affine3d& a, const Eigen::Affine3d& b) {
+  return RotationAngleDeg(a.linear().transpose() * b.linear());
+}
+
+/// From index 0 on, each piece ending where the motion from pose to pose adds up to `delta`.
+template <typename Motion>
+IndexPairs PiecesInARow(const std::vector<Eigen::Affine3d>& poses, double delta,
+                        const Motion& motion) {
+  IndexPairs pairs;
+  std::size_t first = 0;
+  double sum = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    sum += motion(poses[i - 1], poses[i]);
+    if (sum < delta) continue;
+    pairs.push_back({first, i});
+    first = i;
+    sum = 0.0;
+  }
+  return pairs;
+}
+
 }  // namespace
 
 IndexPairs PairsOverFrames(std::size_t frames, std::size_t delta, bool all) {
@@ -24,17 +45,7 @@ IndexPairs PairsOverFrames(std::size_t frames, std::size_t delta, bool all) {
 }
 
 IndexPairs ConsecutivePairsOverDistance(const std::vector<Eigen::Affine3d>& poses, double delta_m) {
-  std::vector<std::size_t> noted;
-  double path = 0.0;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    path += Distance(poses[i - 1], poses[i]);
-    if (path < delta_m) continue;
-    noted.push_back(i);
-    path = 0.0;
-  }
-  IndexPairs pairs;
-  for (std::size_t k = 1; k < noted.size(); ++k) pairs.push_back({noted[k - 1], noted[k]});
-  return pairs;
+  return PiecesInARow(poses, delta_m, Distance);
 }
 
 IndexPairs AllPairsOverDistance(const std::vector<Eigen::Affine3d>& poses, double delta_m,
@@ -59,17 +70,7 @@ IndexPairs AllPairsOverDistance(const std::vector<Eigen::Affine3d>& poses, doubl
 }
 
 IndexPairs ConsecutivePairsOverAngle(const std::vector<Eigen::Affine3d>& poses, double delta_deg) {
-  IndexPairs pairs;
-  std::size_t first = 0;
-  double angle = 0.0;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    angle += RotationAngleDeg(poses[i - 1].linear().transpose() * poses[i].linear());
-    if (angle < delta_deg) continue;
-    pairs.push_back({first, i});
-    first = i;
-    angle = 0.0;
-  }
-  return pairs;
+  return PiecesInARow(poses, delta_deg, AngleDeg);
 }
 
 IndexPairs AllPairsOverTime(const std::vector<std::int64_t>& t_ns, double delta_s,

@@ -16,8 +16,8 @@ using IndexPairs = std::vector<std::pair<std::size_t, std::size_t>>;
 /// Frames 0, d, 2d, ... in a row, or with `all` every i with i + d.
 IndexPairs PairsOverFrames(std::size_t frames, std::size_t delta, bool all);
 
-/// Pieces in a row: an index is noted each time that the path since the last noted one reaches
-/// delta, and noted indices are paired; index 0 is not noted, so the first piece is not used.
+/// Pieces in a row, from index 0, each ending where the path reaches delta. This is how evo has
+/// done it since 1.37.1; before, it left out the first piece.
 IndexPairs ConsecutivePairsOverDistance(const std::vector<Eigen::Affine3d>& poses, double delta_m);
 
 /// For every i the j > i at the path length nearest to delta, if it is within `tolerance` * delta.

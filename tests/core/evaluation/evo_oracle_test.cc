@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Against evo 1.36.5: every run of its expected numbers, none left out.
+// Against evo: every run of its expected numbers, none left out. They are those of 1.36.5; 1.38.1
+// says the same, but for pieces of path in a row, whose numbers are in fixtures/.
 #include "core/evaluation/stamp_search.h"
 #include "tests/core/evaluation/evaluation_testing.h"
 
@@ -62,9 +63,24 @@ const Evaluation& EvaluationOf(const CsvRow& row) {
 
 class EvoOracle : public OracleTest {};
 
+/// What evo 1.38.1 says where it differs from 1.36.5, which left out the first piece of path.
+void TakeNewerNumbers(std::vector<CsvRow>* rows) {
+  std::map<std::string, CsvRow> newer;
+  for (const CsvRow& row : ReadCsv(TRAJLO_TEST_DIR "/fixtures/evo_path_pieces.csv")) {
+    newer[row.at("id")] = row;
+  }
+  for (CsvRow& row : *rows) {
+    const bool differs = row["delta_unit"] == "m" && row["all_pairs"] == "false";
+    ASSERT_EQ(differs, newer.count(row["id"]) == 1) << row["id"];
+    if (!differs) continue;
+    for (const auto& [name, value] : newer[row["id"]]) row[name] = value;
+  }
+}
+
 TEST_F(EvoOracle, EveryRunAgrees) {
-  const std::vector<CsvRow> rows = ReadCsv(EvaluationData() / "expected/evo.csv");
+  std::vector<CsvRow> rows = ReadCsv(EvaluationData() / "expected/evo.csv");
   ASSERT_EQ(rows.size(), kRuns);
+  ASSERT_NO_FATAL_FAILURE(TakeNewerNumbers(&rows));
   for (const CsvRow& row : rows) {
     SCOPED_TRACE(row.at("id"));
     const Evaluation& evaluation = EvaluationOf(row);

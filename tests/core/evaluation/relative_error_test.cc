@@ -21,9 +21,9 @@ TEST(RelativePairs, FramesInARowOrFromEveryOne) {
   EXPECT_THAT(PairsOverFrames(2, 2, true), IsEmpty());
 }
 
-TEST(RelativePairs, PiecesOfPathBeginAtTheFirstNotedPlace) {
+TEST(RelativePairs, PiecesOfPathBeginAtTheFirstPose) {
   const auto poses = OnALine({0.0, 0.6, 1.2, 1.8, 2.4, 3.0}).T_world_body;
-  EXPECT_THAT(ConsecutivePairsOverDistance(poses, 1.0), ElementsAre(Pair(2, 4)));
+  EXPECT_THAT(ConsecutivePairsOverDistance(poses, 1.0), ElementsAre(Pair(0, 2), Pair(2, 4)));
   EXPECT_THAT(ConsecutivePairsOverDistance(poses, 4.0), IsEmpty());
 }
 
