@@ -31,6 +31,13 @@ std::int64_t Excerpt::ElapsedNs(const LidarScan& scan) {
 }
 
 bool Excerpt::Next(LidarScan* scan) {
+  const bool found = FindNext(scan);
+  UpdateReport(report_.scans_read + (found ? 1 : 0),
+               report_.points_read + (found ? scan->points.size() : 0));
+  return found;
+}
+
+bool Excerpt::FindNext(LidarScan* scan) {
   while (whole_->Next(scan)) {
     const std::int64_t elapsed_ns = ElapsedNs(*scan);
     if (elapsed_ns < start_ns_) continue;
@@ -40,6 +47,12 @@ bool Excerpt::Next(LidarScan* scan) {
     if (beyond_ == kBeyond) return false;
   }
   return false;
+}
+
+void Excerpt::UpdateReport(std::size_t scans, std::size_t points) {
+  report_ = whole_->report();
+  report_.scans_read = scans;
+  report_.points_read = points;
 }
 
 }  // namespace trajlo

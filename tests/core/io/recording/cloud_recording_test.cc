@@ -206,6 +206,16 @@ TEST(Excerpt, KeepsTheScansWithinItsTime) {
   EXPECT_THAT(stamps_ms, ElementsAre(500, 600, 700));
 }
 
+TEST(Excerpt, CountsWhatItHandsOnAndNotWhatIsReadAroundIt) {
+  Excerpt excerpt(Open(FakeClouds({"/cloud"}, RegularMessages(30, 100 * kMs))), 500 * kMs,
+                  300 * kMs);
+  EXPECT_EQ(excerpt.report().scans_listed, 30u);
+  std::size_t points = 0;
+  for (const LidarScan& scan : ReadAll(&excerpt)) points += scan.points.size();
+  EXPECT_EQ(excerpt.report().scans_read, 3u);
+  EXPECT_EQ(excerpt.report().points_read, points);
+}
+
 TEST(Excerpt, IsWhereItIsInSpiteOfWrongStamps) {
   constexpr std::int64_t kDay = 86'400'000 * kMs;
   for (const std::int64_t wrong_ns : {5 * kDay, -5 * kDay, 2'000 * kMs}) {
