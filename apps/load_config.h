@@ -2,13 +2,24 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/config/config.h"
 
 namespace trajlo {
 
-/// The defaults, changed by --config (see FindConfig) in its order, then by --set. CheckConfig() is
-/// left to the caller, whose other flags may change more. Throws ConfigError.
-RunConfig LoadConfig(const std::string& files, const std::string& settings);
+/// A flag that is short for an option: --solver for solver.kind.
+struct Shorthand {
+  const char* flag;
+  const char* key;
+  const char* otherwise =
+      "";  ///< What counts in place of --config if neither it nor --set is given.
+};
+
+/// The defaults, changed by --config (see FindConfig) in its order, then by --set and by the
+/// shorthands that are given. CheckConfig() is left to the caller, who may change more. Throws
+/// ConfigError; UsageError if a shorthand and --set contradict each other.
+RunConfig LoadConfig(const std::string& files, const std::string& settings,
+                     const std::vector<Shorthand>& shorthands = {});
 
 }  // namespace trajlo

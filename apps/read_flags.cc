@@ -62,13 +62,17 @@ CommandLineFlagInfo Find(const std::string& command, FlagWord* flag) {
   FailUnknown(command, *flag);
 }
 
+[[noreturn]] void FailWithoutValue(const std::string& name) {
+  throw UsageError("--" + name + " needs a value: --" + name + "=...");
+}
+
 /// The value of a flag that stands without `=`; advances `i` if the next word is that value.
 std::string NextValue(const CommandLineFlagInfo& info, const std::vector<std::string>& words,
                       std::size_t* i) {
   const std::string next = *i + 1 < words.size() ? words[*i + 1] : "--";
   const bool is_switch = info.type == "bool";
   if (is_switch && next != "true" && next != "false") return "true";
-  if (IsFlag(next)) throw UsageError("--" + info.name + " needs a value: --" + info.name + "=...");
+  if (IsFlag(next)) FailWithoutValue(info.name);
   ++*i;
   return next;
 }
@@ -90,6 +94,8 @@ struct Given {
 
 void Note(const CommandLineFlagInfo& info, const std::string& value,
           std::map<std::string, Given>* given) {
+  // From a variable of the shell that is not set, for instance.
+  if (value.find_first_not_of(" ,") == std::string::npos) FailWithoutValue(info.name);
   const auto [at, is_new] = given->insert({info.name, {value, info.type}});
   std::string& before = at->second.value;
   if (is_new || before == value) return;
@@ -97,7 +103,7 @@ void Note(const CommandLineFlagInfo& info, const std::string& value,
     throw UsageError("--" + info.name + " is given twice, as '" + before + "' and as '" + value +
                      "'");
   }
-  before += (before.empty() || value.empty() ? "" : ",") + value;
+  before += "," + value;
 }
 
 }  // namespace
@@ -137,6 +143,7 @@ std::vector<std::string> ReadFlags(const std::string& command,
                        words.end());
       break;
     }
+    if (words[i].empty()) throw UsageError("an argument is empty");
     if (!IsFlag(words[i])) {
       arguments.push_back(words[i]);
       continue;

@@ -98,8 +98,7 @@ trajlo::CompareRequest RequestFromFlags(const trajlo::CommandLine& line) {
   request.command_line = line.words;
   request.inputs = trajlo::InputsOf(line, FLAGS_input);
   if (FLAGS_output.empty()) throw UsageError("--output is missing");
-  request.config = trajlo::LoadConfig(FLAGS_config, FLAGS_set);
-  trajlo::ApplyOverrides("threads=" + std::to_string(FLAGS_threads), &request.config, "--threads");
+  request.config = trajlo::LoadConfig(FLAGS_config, FLAGS_set, {{"threads", "threads", "1"}});
   trajlo::CheckConfig(request.config);
   trajlo::RequireExtrinsics(request.inputs, request.config);
   trajlo::RequireOptionsOfEachLidar(request.inputs, request.config.input);

@@ -80,7 +80,7 @@ Flags of results:
   --recording=PATH              where the recording is now; else where it was
   --keep_lost                   also poses from where the estimator got lost on
 Flags of recordings:
-  --topics=A,B                  of a bag; empty takes all
+  --topics=A,B                  of a bag; else all
   --start_s=S --duration_s=S    from the first message (of its kind) on
   --layout=ouster|velodyne|livox
   --set=input.time_unit=us, --config=NAME   how point times are meant, as for trajlo_run
@@ -105,17 +105,11 @@ memory or a defect of the program, 130 interrupted (what was read is written).
 )";
 
 trajlo::RecordingOptions RecordingFromFlags() {
-  trajlo::RunConfig config = trajlo::LoadConfig(FLAGS_config, FLAGS_set);
+  const trajlo::RunConfig config = trajlo::LoadConfig(FLAGS_config, FLAGS_set,
+                                                      {{"topics", "input.topics"},
+                                                       {"start_s", "input.start_s"},
+                                                       {"duration_s", "input.duration_s"}});
   trajlo::CheckConfig(config);
-  if (!(FLAGS_start_s >= 0.0 && FLAGS_start_s <= 1e9)) {
-    throw UsageError("--start_s: must be between 0 and 1e9 s");
-  }
-  if (!(FLAGS_duration_s >= 0.0 && FLAGS_duration_s <= 1e9)) {
-    throw UsageError("--duration_s: must be between 0 and 1e9 s");
-  }
-  if (!FLAGS_topics.empty()) config.input.topics = trajlo::SplitAtCommas(FLAGS_topics);
-  if (FLAGS_start_s > 0.0) config.input.start_s = FLAGS_start_s;
-  if (FLAGS_duration_s > 0.0) config.input.duration_s = FLAGS_duration_s;
   return config.input;
 }
 

@@ -91,13 +91,8 @@ program, 130 interrupted. After 3, 4 and 130 the result until then is there.
 )";
 
 trajlo::RunConfig ConfigFromFlags() {
-  trajlo::RunConfig config = trajlo::LoadConfig(FLAGS_config, FLAGS_set);
-  if (!FLAGS_solver.empty()) {
-    trajlo::ApplyOverrides("solver.kind=" + FLAGS_solver, &config, "--solver");
-  }
-  if (FLAGS_threads != -1) {
-    trajlo::ApplyOverrides("threads=" + std::to_string(FLAGS_threads), &config, "--threads");
-  }
+  const trajlo::RunConfig config = trajlo::LoadConfig(
+      FLAGS_config, FLAGS_set, {{"solver", "solver.kind"}, {"threads", "threads"}});
   trajlo::CheckConfig(config);
   return config;
 }

@@ -146,6 +146,9 @@ Scenario ScenarioFromFlags(const std::string& name) {
   if (FLAGS_duration_s > 0.0) scenario.duration_s = FLAGS_duration_s;
   if (FLAGS_seed > 0) scenario.seed = static_cast<std::uint64_t>(FLAGS_seed);
   ApplySettings(FLAGS_set, &scenario);
+  const bool same = (FLAGS_duration_s == 0.0 || scenario.duration_s == FLAGS_duration_s) &&
+                    (FLAGS_seed == 0 || scenario.seed == static_cast<std::uint64_t>(FLAGS_seed));
+  if (!same) throw UsageError("--duration_s or --seed says one thing, and --set another");
   return scenario;
 }
 

@@ -173,6 +173,34 @@ TEST(Commands, AKeyThatIsSetTwiceIsRefused) {
             1);
 }
 
+TEST(Commands, AFlagAndTheOptionThatItIsShortForMustNotContradict) {
+  const auto error = [](const std::string& program, const std::vector<std::string>& arguments) {
+    const Outcome outcome = Call(program, arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << arguments.front();
+    return outcome.err;
+  };
+  const std::vector<std::string> one = {"--show_config", "--set=solver.kind=ceres"};
+  EXPECT_THAT(error("trajlo_run", {"--solver=gauss_newton", one[0], one[1]}),
+              HasSubstr("--solver=gauss_newton is short for --set solver.kind=gauss_newton, and "
+                        "--set says otherwise"));
+  EXPECT_EQ(Call("trajlo_run", {"--solver=ceres", one[0], one[1]}).exit_code, 0);
+  EXPECT_THAT(error("trajlo_run", {"--show_config", "--threads=2", "--set=threads=3"}),
+              HasSubstr("--threads=2"));
+  EXPECT_THAT(
+      error("trajlo_simulate", {"hall_os1_16", "--list_parameters", "--seed=2", "--set=seed=3"}),
+      HasSubstr("--seed"));
+}
+
+TEST(Commands, AnEmptyValueIsNotIgnored) {
+  for (const char* flag : {"--config", "--set", "-c", "--input", "--output"}) {
+    const Outcome outcome = Call("trajlo_run", {"--show_config", flag, ""});
+    EXPECT_EQ(outcome.exit_code, 1) << flag;
+    EXPECT_THAT(outcome.err, HasSubstr("needs a value")) << flag;
+  }
+  EXPECT_THAT(Call("trajlo_evaluate", {"a.tum", "--truth", ""}).err,
+              HasSubstr("--truth needs a value"));
+}
+
 TEST(ConfigurationNames, AreFoundInTheBuildAndInAnInstallation) {
   const TempFolder folder;
   const fs::path before = fs::current_path();

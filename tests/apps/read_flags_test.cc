@@ -75,7 +75,7 @@ TEST_F(ReadFlagsTest, SwitchesTakeTheNextWordOnlyIfItIsTrueOrFalse) {
 }
 
 TEST_F(ReadFlagsTest, ListsMayBeGivenInParts) {
-  Read({"--set", "a=1", "--set=b=[2,3],c=4", "--set", ""});
+  Read({"--set", "a=1", "--set=b=[2,3],c=4"});
   EXPECT_EQ(FLAGS_set, "a=1,b=[2,3],c=4");
 }
 
@@ -94,9 +94,18 @@ TEST_F(ReadFlagsTest, UnknownFlagsComeWithTheNearest) {
             "unknown flag --window.segments; options are set with --set window.segments=3");
 }
 
+TEST_F(ReadFlagsTest, AnEmptyValueIsNoneAndIsNotIgnored) {
+  for (const Words& words : {Words{"--output", ""}, Words{"-o="}, Words{"--output= "}}) {
+    EXPECT_EQ(Error(words), "--output needs a value: --output=...");
+  }
+  EXPECT_EQ(Error({"--set", "a=1", "--set="}), "--set needs a value: --set=...");
+  EXPECT_EQ(Error({"--set=,"}), "--set needs a value: --set=...");
+  EXPECT_EQ(Error({"--start_s="}), "--start_s needs a value: --start_s=...");
+  EXPECT_EQ(Error({""}), "an argument is empty");
+}
+
 TEST_F(ReadFlagsTest, WrongValuesAreNamedWithWhatIsAllowed) {
   EXPECT_EQ(Error({"--threads", "two"}), "--threads: must be a whole number, found 'two'");
-  EXPECT_EQ(Error({"--start_s="}), "--start_s: must be a number, found ''");
   EXPECT_EQ(Error({"--quiet=perhaps"}), "--quiet: must be true or false, found 'perhaps'");
 }
 
