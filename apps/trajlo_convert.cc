@@ -3,6 +3,7 @@
 // trajlo_run for other tools. See --help.
 #include <gflags/gflags.h>
 
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "apps/load_config.h"
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
+#include "core/config/edit_distance.h"
 #include "core/export/run_result.h"
 #include "core/io/conversion/scan_bag_writer.h"
 
@@ -155,6 +157,23 @@ void CheckOutput(const trajlo::ConvertRequest& request) {
   }
 }
 
+/// The name says what is written: a misspelt ending must not make a folder.
+void CheckEnding(const std::filesystem::path& output, const std::vector<std::string>& endings) {
+  const std::string ending = output.extension().string();
+  if (ending.empty()) return;
+  std::string all;
+  for (const std::string& known : endings) {
+    if (ending == "." + known) return;
+    all += (all.empty() ? "." : ", .") + known;
+  }
+  std::string word = ending.substr(1);
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string nearest = trajlo::NearestKey(word, endings);
+  throw UsageError("the output ends in " + all + ", not in " + ending +
+                   (nearest.empty() ? "" : "; did you mean ." + nearest + "?") +
+                   " (a folder whose name has a dot ends in '/')");
+}
+
 /// Flags that a result has no use for are mistakes.
 void CheckResultOutput(const trajlo::ConvertRequest& request) {
   const bool is_excerpt = FLAGS_start_s > 0.0 || FLAGS_duration_s > 0.0;
@@ -165,22 +184,7 @@ void CheckResultOutput(const trajlo::ConvertRequest& request) {
         "recordings; " +
         request.input + " is a result of trajlo_run");
   }
-  for (const char* other : {".pcap", ".bin", ".las", ".csv", ".html"}) {
-    if (request.output.extension() == other) {
-      throw UsageError(
-          "a result becomes .mcap, .db3, .bag, .ply, .pcd, .txt, .tum or a folder, not " +
-          std::string(other));
-    }
-  }
-}
-
-void CheckRecordingOutput(const trajlo::ConvertRequest& request) {
-  for (const char* other : {".pcap", ".pcd", ".bin", ".ply"}) {
-    if (request.poses.empty() && request.output.extension() == other) {
-      throw UsageError("the output is a .bag, .mcap, .db3 or a folder of scans, not a " +
-                       std::string(other));
-    }
-  }
+  CheckEnding(request.output, {"mcap", "db3", "bag", "ply", "pcd", "txt", "tum"});
 }
 
 /// Arguments and flags may be mixed: trajlo_convert in.bag -o out.bag.
@@ -209,7 +213,9 @@ trajlo::ConvertRequest RequestFromFlags(std::vector<std::string> arguments) {
   if (trajlo::IsRunResult(request.input)) {
     CheckResultOutput(request);
   } else {
-    CheckRecordingOutput(request);
+    CheckEnding(request.output, request.poses.empty()
+                                    ? std::vector<std::string>{"mcap", "db3", "bag"}
+                                    : std::vector<std::string>{"tum", "txt"});
   }
   return request;
 }

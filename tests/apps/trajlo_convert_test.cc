@@ -58,6 +58,34 @@ TEST_F(TrajloConvert, WrongUsageExitsWithOne) {
   EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--set=input.unit=s"}).exit_code, 1);
 }
 
+TEST_F(TrajloConvert, AMisspeltEndingMakesNoFolder) {
+  for (const auto& [name, nearest] :
+       {std::pair{"a.bgg", ".bag"}, {"a.mcpa", ".mcap"}, {"a.BAG", ".bag"}, {"a.pcap", ".mcap"}}) {
+    const Outcome outcome = Convert({Path("room"), Path(name)});
+    EXPECT_EQ(outcome.exit_code, 1) << name;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("ends in .mcap, .db3, .bag, not in"),
+                                   HasSubstr("did you mean " + std::string(nearest) + "?")));
+    EXPECT_FALSE(std::filesystem::exists(Path(name)));
+  }
+  const Outcome poses = Convert({Path("room"), Path("poses.bag"), "--poses=/truth"});
+  EXPECT_EQ(poses.exit_code, 1);
+  EXPECT_THAT(poses.err, HasSubstr("ends in .tum, .txt, not in .bag"));
+  for (const char* name : {"folder", "version1.2/"}) {
+    EXPECT_EQ(Convert({Path("room"), Path(name)}).exit_code, 0) << name;
+    EXPECT_TRUE(std::filesystem::exists(Path(name) + "/scans/000000.pcd"));
+  }
+}
+
+TEST_F(TrajloConvert, AFlagAndTheOptionThatItIsShortForMustNotContradict) {
+  const Outcome outcome =
+      Convert({Path("room"), Path("part"), "--start_s=0.2", "--set=input.start_s=0.4"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("--start_s=0.2"));
+  EXPECT_EQ(
+      Convert({Path("room"), Path("part"), "--start_s=0.2", "--set=input.start_s=0.2"}).exit_code,
+      0);
+}
+
 TEST_F(TrajloConvert, AFolderBecomesABagAndAFolderAgainWithTheSamePoints) {
   const Outcome to_bag = Convert({Path("room"), Path("a.bag"), "--compression=lz4"});
   ASSERT_EQ(to_bag.exit_code, 0) << to_bag.err;
