@@ -64,7 +64,15 @@ void ProtectResult(const ConvertRequest& request, const RunResult& result) {
   ProtectInput(read, request.output);
 }
 
-void WarnOfPoses(const RunResult& result) {
+void WarnOfResult(const RunResult& result) {
+  if (!result.unknown_keys.empty()) {
+    std::string keys;
+    for (const std::string& key : result.unknown_keys) keys += (keys.empty() ? "" : ", ") + key;
+    std::fprintf(stderr,
+                 "trajlo_convert: another version of trajlo_run wrote this result: what its "
+                 "config.yaml says of %s is not used\n",
+                 keys.c_str());
+  }
   if (result.poses_left_out > 0) {
     std::fprintf(stderr,
                  "trajlo_convert: the estimator got lost at %s s: %zu poses from there on are left "
@@ -256,7 +264,7 @@ ExitCode WriteBag(const ConvertRequest& request, const RunResult& result,
 ExitCode ExportResult(const ConvertRequest& request, const std::atomic<bool>& stop) {
   const RunResult result = ReadRunResult(request.input, {request.exports.keep_lost});
   ProtectResult(request, result);
-  WarnOfPoses(result);
+  WarnOfResult(result);
   const fs::path extension = request.output.extension();
   if (extension == ".tum" || extension == ".txt") return WritePoseFile(request, result);
   if (extension == ".pcd" || extension == ".ply") return WriteMap(request, result, stop);

@@ -26,7 +26,11 @@ struct RunConfig {
 /// unknown key (naming the nearest), a repeated key, a wrong type, and a value out of range.
 void LoadConfigFile(const std::filesystem::path& path, RunConfig* config);
 
-/// The same for YAML in memory; `name` stands for the file in messages.
+/// The same for what a run wrote down of itself, maybe by an older build: returns the unknown keys
+/// in place of refusing them.
+std::vector<std::string> LoadRecordedConfig(const std::filesystem::path& path, RunConfig* config);
+
+/// As LoadConfigFile for YAML in memory; `name` stands for the file in messages.
 void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config);
 
 /// The same for options that a program hands over: messages name no line, as the user wrote none.

@@ -17,13 +17,19 @@ namespace {
 /// Walks nested maps and sets the options whose keys it meets.
 class Loader {
  public:
-  /// Without `with_places`, messages name no line: the text is a part of a command line.
-  Loader(std::string name, bool with_places, RunConfig* config)
-      : name_(std::move(name)), with_places_(with_places), options_(BindOptions(config)) {}
+  /// Without `with_places`, messages name no line: the text is a part of a command line. Unknown
+  /// keys are errors, unless there is a list that takes them.
+  Loader(std::string name, bool with_places, RunConfig* config,
+         std::vector<std::string>* unknown = nullptr)
+      : name_(std::move(name)),
+        with_places_(with_places),
+        options_(BindOptions(config)),
+        unknown_(unknown) {}
 
   /// Sets one option, or complains about its key or value at the place of `key_node`.
   void Set(const std::string& key, const YAML::Node& key_node, const YAML::Node& value) {
     const Option* option = Find(key);
+    if (option == nullptr && unknown_ != nullptr) return unknown_->push_back(key);
     if (option == nullptr) FailUnknown(key, key_node);
     if (!seen_.insert(key).second) Fail(key_node, "'" + key + "' is set twice");
     try {
@@ -99,6 +105,7 @@ class Loader {
   std::string name_;
   bool with_places_;
   std::vector<Option> options_;
+  std::vector<std::string>* unknown_;
   std::set<std::string> seen_;
 };
 
@@ -174,12 +181,12 @@ YAML::Node OnlyDocument(const std::string& yaml, const std::string& name) {
   }
 }
 
-void LoadYaml(const std::string& yaml, const std::string& name, bool with_places,
-              RunConfig* config) {
+void LoadYaml(const std::string& yaml, const std::string& name, bool with_places, RunConfig* config,
+              std::vector<std::string>* unknown = nullptr) {
   const YAML::Node root = OnlyDocument(yaml, name);
   // Work on a copy: a file with an error changes nothing.
   RunConfig loaded = *config;
-  Loader loader(name, with_places, &loaded);
+  Loader loader(name, with_places, &loaded, unknown);
   if (root.IsNull()) return;
   if (!root.IsMap()) {
     loader.Fail(root, "expected sections with keys, such as 'window: {segments: 4}'");
@@ -200,6 +207,12 @@ void LoadConfigValues(const std::string& yaml, const std::string& name, RunConfi
 
 void LoadConfigFile(const std::filesystem::path& path, RunConfig* config) {
   LoadConfigText(ReadConfigFile(path), path.string(), config);
+}
+
+std::vector<std::string> LoadRecordedConfig(const std::filesystem::path& path, RunConfig* config) {
+  std::vector<std::string> unknown;
+  LoadYaml(ReadConfigFile(path), path.string(), true, config, &unknown);
+  return unknown;
 }
 
 void ApplyOverrides(std::string_view settings, RunConfig* config, const std::string& name) {

@@ -112,7 +112,7 @@ RunResult ReadRunResult(const fs::path& folder, const ResultOptions& options) {
   const ResultFolder files(folder);
   RunResult result;
   TakeSummary(files.summary(), &result);
-  LoadConfigFile(files.config(), &result.config);
+  result.unknown_keys = LoadRecordedConfig(files.config(), &result.config);
   TakePoses(files.trajectory(), ReadFlags(files.windows()), options, &result);
   std::error_code error;
   if (fs::exists(files.covariance(), error)) {

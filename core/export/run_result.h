@@ -25,6 +25,8 @@ struct RunResult {
   /// The recording, as the command line named it.
   std::vector<std::string> inputs;
   RunConfig config;
+  /// Of config.yaml, those that an older build knew.
+  std::vector<std::string> unknown_keys;
   /// The poses of trajectory.tum that count, with the flags of windows.csv; never empty.
   Trajectory trajectory;
   /// By time; empty unless the run was asked for covariance.csv.

@@ -202,6 +202,19 @@ TEST_F(TrajloConvertResult, MistakesAreNamed) {
   }
 }
 
+TEST_F(TrajloConvertResult, KeysThatAnOlderBuildWroteAreToldAndNotRefused) {
+  fs::copy(Path("result"), Path("older"), fs::copy_options::recursive);
+  WriteFile(Path("older/config.yaml"),
+            ReadFile(Path("older/config.yaml")) + "weights: {kernel: huber}\nnoise_model: old\n");
+  const Outcome outcome = Convert({Path("older"), Path("older.mcap")});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("what its config.yaml says of weights, noise_model is not used"));
+  // A configuration that is given is another matter.
+  EXPECT_EQ(
+      Convert({Path("room"), Path("x.bag"), "--config=" + Path("older/config.yaml")}).exit_code, 1);
+}
+
 TEST_F(TrajloConvertResult, NeitherTheResultNorItsRecordingIsEverReplaced) {
   ASSERT_EQ(Convert({Path("room"), Path("room.bag")}).exit_code, 0);
   const std::string bag = ReadFile(Path("room.bag"));
