@@ -30,17 +30,18 @@ const FreeResult* FindFree(const CompareReport& report, const std::string& name)
 }
 
 std::string LockstepTable(const CompareReport& report) {
-  std::string text = Format("lockstep: %d windows, each solved by all from the same start\n",
-                            report.lockstep.front().windows());
+  std::string text = Format(
+      "lockstep: %d windows, each solved by all from the same start; ms: median per window\n",
+      report.lockstep.front().windows());
   text += Format("  %-22s %7s %9s %9s %9s %9s %7s %10s %10s\n", "variant", "steps", "rejected",
                  "eval ms", "linear ms", "total ms", "ratio", "median m", "max m");
   for (std::size_t i = 0; i < report.lockstep.size(); ++i) {
     const LockstepTotals& t = report.lockstep[i];
     text += Format("  %-22s %7.2f %9d %9.3f %9.3f %9.3f %7.2f %10.1e %10.1e\n",
                    report.lockstep_variants[i].name.c_str(), t.StepsPerWindow(), t.rejected_steps(),
-                   t.EvaluateMs(), t.LinearSolveMs(), t.TotalMs(),
-                   Ratio(t.TotalMs(), report.lockstep.front().TotalMs()), t.MedianDistance_m(),
-                   t.MaxDistance_m());
+                   t.MedianEvaluateMs(), t.MedianLinearSolveMs(), t.MedianTotalMs(),
+                   Ratio(t.MedianTotalMs(), report.lockstep.front().MedianTotalMs()),
+                   t.MedianDistance_m(), t.MaxDistance_m());
   }
   return text;
 }
@@ -70,9 +71,9 @@ Json LockstepJson(const LockstepTotals& t) {
           {"not_finite", t.not_finite()},
           {"steps_per_window", t.StepsPerWindow()},
           {"rejected_steps", t.rejected_steps()},
-          {"evaluate_ms", t.EvaluateMs()},
-          {"linear_solve_ms", t.LinearSolveMs()},
-          {"total_ms", t.TotalMs()},
+          {"median_evaluate_ms", t.MedianEvaluateMs()},
+          {"median_linear_solve_ms", t.MedianLinearSolveMs()},
+          {"median_total_ms", t.MedianTotalMs()},
           {"cost_after", t.CostAfter()},
           {"median_from_first_m", t.MedianDistance_m()},
           {"max_from_first_m", t.MaxDistance_m()},

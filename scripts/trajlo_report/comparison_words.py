@@ -57,12 +57,12 @@ def of_windows(lockstep):
     if len(alike) < 2:
         return []
     first = alike[0]
-    fastest = min(alike, key=lambda item: item["lockstep"]["total_ms"])
-    slowest = max(alike, key=lambda item: item["lockstep"]["total_ms"])
-    least, most = fastest["lockstep"]["total_ms"], slowest["lockstep"]["total_ms"]
+    fastest = min(alike, key=lambda item: item["lockstep"]["median_total_ms"])
+    slowest = max(alike, key=lambda item: item["lockstep"]["median_total_ms"])
+    least, most = fastest["lockstep"]["median_total_ms"], slowest["lockstep"]["median_total_ms"]
     text = f"{fastest['name']} solves a window fastest, in {significant(least)} ms"
     if fastest is not first:
-        times = factor(first["lockstep"]["total_ms"] / least)
+        times = factor(first["lockstep"]["median_total_ms"] / least)
         text += f" ({first['name']} takes {times} × as long)"
     said = [f"{text}; {slowest['name']} is slowest, {factor(most / least)} × as long.",
             # Distances are from the first of all, which must minimise the same cost.

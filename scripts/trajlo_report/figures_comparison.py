@@ -59,8 +59,8 @@ def without_curve(iterations, variants):
 
 def too_slow(variants):
     """Those that would make the bars of all others short."""
-    first = variants[0]["lockstep"]["total_ms"]
-    return [item["name"] for item in variants if item["lockstep"]["total_ms"] > FAST * first]
+    first = variants[0]["lockstep"]["median_total_ms"]
+    return [item["name"] for item in variants if item["lockstep"]["median_total_ms"] > FAST * first]
 
 
 def draw_costs(iterations, variants, width_in):
@@ -77,9 +77,9 @@ def draw_costs(iterations, variants, width_in):
 def draw_stages(variants, width_in):
     """Milliseconds a window: evaluation, linear equations, and what else a solver does."""
     names = [item["name"] for item in variants]
-    totals = np.array([item["lockstep"]["total_ms"] for item in variants])
-    evaluate = np.array([item["lockstep"]["evaluate_ms"] for item in variants])
-    linear = np.array([item["lockstep"]["linear_solve_ms"] for item in variants])
+    totals = np.array([item["lockstep"]["median_total_ms"] for item in variants])
+    evaluate = np.array([item["lockstep"]["median_evaluate_ms"] for item in variants])
+    linear = np.array([item["lockstep"]["median_linear_solve_ms"] for item in variants])
     slow = too_slow(variants)
     fast = np.array([name not in slow for name in names])
     figure, (bars, dots) = theme.plt.subplots(

@@ -68,6 +68,19 @@ TEST(Lockstep, AllSolversOfOneEnergyEndAtTheSamePosesAndCost) {
   EXPECT_LT(ceres.MaxDistance_m(), 1e-6);
 }
 
+TEST(Lockstep, OneWindowInWhichTheComputerWasBusyDecidesNothing) {
+  LockstepTotals totals;
+  LockstepRecord record;
+  for (int i = 0; i < 9; ++i) {
+    record.total_s = i == 4 ? 1.0 : 0.002;
+    record.summary.evaluate_s = 0.5 * record.total_s;
+    totals.Add(record);
+  }
+  EXPECT_DOUBLE_EQ(totals.MedianTotalMs(), 2.0);
+  EXPECT_DOUBLE_EQ(totals.MedianEvaluateMs(), 1.0);
+  EXPECT_DOUBLE_EQ(totals.MedianLinearSolveMs(), 0.0);
+}
+
 TEST(Lockstep, DoesNotChangeTheRunAndComparesEveryNthWindow) {
   const LockstepRun all = RunAll({Variant("gauss_newton", "solver.kind=gauss_newton")}, 1);
   const LockstepRun some = RunAll({Variant("tukey", "expert.registration.kernel=tukey")}, 3);
