@@ -24,13 +24,6 @@ struct CeresFormOptions {
   TrustRegionKind trust_region = TrustRegionKind::kLevenbergMarquardt;
   double initial_trust_region_radius = 1e16;
 
-  bool IsDefault() const {
-    return registration == RegistrationForm::kPrepared &&
-           linear_solver == LinearSolverKind::kDenseNormalCholesky &&
-           trust_region == TrustRegionKind::kLevenbergMarquardt &&
-           initial_trust_region_radius == 1e16;
-  }
-
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "registration", registration,

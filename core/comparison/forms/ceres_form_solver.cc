@@ -7,6 +7,7 @@
 #include "core/comparison/forms/point_to_plane_autodiff.h"
 #include "core/comparison/forms/segment_residuals.h"
 #include "core/odometry/solvers/ceres_blocks.h"
+#include "core/odometry/solvers/ceres_solver.h"
 #include "core/odometry/solvers/ceres_steps.h"
 #include "core/odometry/solvers/prepare_registration.h"
 #include "factors/point_to_plane.h"
@@ -39,18 +40,15 @@ ceres::Solver::Options MakeSolverOptions(const CeresFormOptions& form, int steps
   return options;
 }
 
-/// The registration of segment k in any form.
+/// The registration of segment k in another form.
 void AddRegistration(const CeresFormOptions& form, const Window& window, int k,
-                     const PrepareRegistration& prepare, ceres::LossFunction* loss,
-                     CeresBlocks* blocks) {
+                     ceres::LossFunction* loss, CeresBlocks* blocks) {
   const std::vector<RegistrationPoint>& points =
       window.segments[static_cast<std::size_t>(k)].points;
   if (points.empty()) return;
   const double sigma_m = window.noise.sigma_m;
   switch (form.registration) {
-    case RegistrationForm::kPrepared:
-      blocks->AddRegistration(new PreparedRegistrationCost(prepare.equations(k)), nullptr, k);
-      break;
+    case RegistrationForm::kPrepared:  // The same, but for CeresSolver's way to compute it.
     case RegistrationForm::kCondensed:
       blocks->AddRegistration(new SegmentRegistrationCost(&points, window.noise), nullptr, k);
       break;
@@ -76,31 +74,32 @@ void AddRegistration(const CeresFormOptions& form, const Window& window, int k,
 
 SolveSummary CeresFormSolver::Solve(Window* window) {
   std::vector<SE3> poses = window->Poses();
+  // The blocks do not use it. What it leaves is linearised where CeresSolver's is: at the start of
+  // a single step, else at the end.
   PrepareRegistration prepare(&poses, &evaluator_);
   prepare.Begin(window, options_.iterations_per_round);
+  if (options_.iterations_per_round == 1) prepare.PrepareForEvaluation(true, true);
   RobustKernelLoss loss(window->noise.kernel);
-  CeresBlocks blocks(&poses,
-                     form_.registration == RegistrationForm::kPrepared ? &prepare : nullptr);
+  CeresBlocks blocks(&poses, nullptr);
   for (int k = 0; k < window->size(); ++k) {
-    AddRegistration(form_, *window, k, prepare, &loss, &blocks);
+    AddRegistration(form_, *window, k, &loss, &blocks);
     blocks.AddMotion(window->segments[static_cast<std::size_t>(k)].motion, k);
   }
   blocks.AddPrior(window->prior);
   const SolveSummary summary =
       SolveByCeres(options_, MakeSolverOptions(form_, options_.iterations_per_round), &poses,
                    blocks.problem(), window);
-  if (!summary.finite) return summary;
-  std::vector<RegistrationNormalEquations> registration;
-  evaluator_.Evaluate(window, poses, true, &registration);
-  ShiftRegistration(window);
+  if (summary.finite) prepare.Finish();
   return summary;
 }
 
 WindowSolverFactory MakeSolverFactory(const CeresFormOptions& form) {
   return
       [form](const SolverOptions& options, ThreadPool* threads) -> std::unique_ptr<WindowSolver> {
-        if (options.kind == SolverKind::kGaussNewton || form.IsDefault()) {
-          return MakeWindowSolver(options, threads);
+        if (options.kind == SolverKind::kGaussNewton) return MakeWindowSolver(options, threads);
+        if (form.registration == RegistrationForm::kPrepared) {
+          return std::make_unique<CeresSolver>(
+              options, MakeSolverOptions(form, options.iterations_per_round), threads);
         }
         return std::make_unique<CeresFormSolver>(form, options, threads);
       };

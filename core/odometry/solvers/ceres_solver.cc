@@ -2,6 +2,7 @@
 #include "core/odometry/solvers/ceres_solver.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/odometry/solvers/ceres_blocks.h"
 #include "core/odometry/solvers/ceres_steps.h"
@@ -35,12 +36,12 @@ class CeresSolver::LivingProblem {
                       });
   }
 
-  SolveSummary Solve(const SolverOptions& options, Window* window) {
+  SolveSummary Solve(const SolverOptions& options, const ceres::Solver::Options& ceres_options,
+                     Window* window) {
     TakeTerms(*window);
     prepare_.Begin(window, options.iterations_per_round);
     const SolveSummary summary =
-        SolveByCeres(options, UndampedSolverOptions(options.iterations_per_round), &poses_,
-                     blocks_.problem(), window);
+        SolveByCeres(options, ceres_options, &poses_, blocks_.problem(), window);
     if (summary.finite) prepare_.Finish();
     return summary;
   }
@@ -60,14 +61,19 @@ class CeresSolver::LivingProblem {
 };
 
 CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
-    : options_(options), evaluator_(threads, options.step_tolerance) {}
+    : CeresSolver(options, UndampedSolverOptions(options.iterations_per_round), threads) {}
+CeresSolver::CeresSolver(const SolverOptions& options, ceres::Solver::Options ceres_options,
+                         ThreadPool* threads)
+    : options_(options),
+      ceres_options_(std::move(ceres_options)),
+      evaluator_(threads, options.step_tolerance) {}
 CeresSolver::~CeresSolver() = default;
 
 SolveSummary CeresSolver::Solve(Window* window) {
   if (!problem_ || !problem_->Fits(*window)) {
     problem_ = std::make_unique<LivingProblem>(*window, &evaluator_);
   }
-  return problem_->Solve(options_, window);
+  return problem_->Solve(options_, ceres_options_, window);
 }
 
 }  // namespace trajlo

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <ceres/solver.h>
+
 #include <memory>
 
 #include "core/odometry/solvers/window_solver.h"
@@ -18,6 +20,9 @@ namespace trajlo {
 class CeresSolver final : public WindowSolver {
  public:
   CeresSolver(const SolverOptions& options, ThreadPool* threads);
+  /// With other options of Ceres, for comparison.
+  CeresSolver(const SolverOptions& options, ceres::Solver::Options ceres_options,
+              ThreadPool* threads);
   ~CeresSolver() override;
 
   SolveSummary Solve(Window* window) override;
@@ -25,6 +30,7 @@ class CeresSolver final : public WindowSolver {
  private:
   class LivingProblem;
   SolverOptions options_;
+  ceres::Solver::Options ceres_options_;
   RegistrationEvaluator evaluator_;
   std::unique_ptr<LivingProblem> problem_;
 };
