@@ -34,7 +34,8 @@ struct CeresFormOptions {
                               {"point_autodiff", RegistrationForm::kPointAutodiff}},
       "How the registration enters Ceres: 13 condensed rows a segment, computed in parallel or "
       "each by itself; one block a segment with a residual a point; one block a point with "
-      "analytic or automatic Jacobians.");
+      "analytic or automatic Jacobians. Only the default keeps linearisations within "
+      "expert.solver.step_tolerance_m.");
     d(OptionFor::kExperts, "linear_solver", linear_solver,
       Names<LinearSolverKind>{{"dense_normal_cholesky", LinearSolverKind::kDenseNormalCholesky},
                               {"dense_qr", LinearSolverKind::kDenseQr},
