@@ -42,7 +42,8 @@ struct Judgement {
 };
 
 /// Judges the times of the scans of one LiDAR. (lidar_track_start.cc has the first scans,
-/// lidar_track_steps.cc the steps of the clock, lidar_track_views.cc what views tell.)
+/// lidar_track_steps.cc the steps of the clock, lidar_track_views.cc what views tell,
+/// lidar_track_places.cc the places of scans that came before another one.)
 ///
 /// Scans of a LiDAR come in order and at a steady period. One that goes on from the scan before is
 /// handed on at once. Any other is held until those after it tell what happened:
