@@ -64,6 +64,10 @@ int Digits(std::string_view text, std::size_t begin, std::size_t size) {
 
 }  // namespace
 
+bool AllDigits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 std::optional<std::int64_t> ParseDecimalNs(std::string_view text, std::int64_t unit_ns) {
   std::optional<Decimal> decimal = SplitDecimal(text);
   if (!decimal) return {};

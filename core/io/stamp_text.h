@@ -8,6 +8,9 @@
 
 namespace trajlo {
 
+/// True for a whole number without a sign; false for an empty text.
+bool AllDigits(std::string_view text);
+
 /// Parses decimal text as nanoseconds without going through double: "1317042000.103499889",
 /// "1.036224e-01", "-0.5". `unit_ns` is what a one in the text means, a power of ten from 1 to 1e9.
 /// Digits beyond the nanosecond are rounded. Nothing if the text is no number or
