@@ -159,14 +159,25 @@ TEST(PointFile, AnEmptyScanIsNotDamaged) {
   EXPECT_EQ(ReadPointFile(folder.Write("a.bin", "")).count, 0U);
 }
 
-TEST(PointFile, ABinWithFiveNumbersAPointIsToldByItsRings) {
-  const TempFolder folder;
+/// 320 points of a .bin: x, y, z, an intensity, and then what `more` says of point i.
+template <typename More>
+std::string Bin(const More& more) {
   std::string bytes;
   for (int i = 0; i < 320; ++i) {
-    const float row[] = {0.25F * static_cast<float>(i) + 0.1F, -3.3F, 1.7F,
-                         static_cast<float>(i % 90), static_cast<float>(i % 32)};
-    bytes.append(reinterpret_cast<const char*>(row), sizeof(row));
+    std::vector<float> row = {0.25F * static_cast<float>(i) + 0.1F, -3.3F, 1.7F,
+                              static_cast<float>(i % 90)};
+    for (const float value : more(i)) row.push_back(value);
+    bytes.append(reinterpret_cast<const char*>(row.data()), sizeof(float) * row.size());
   }
+  return bytes;
+}
+
+float Ring(int i) { return static_cast<float>(i % 32); }
+float Time(int i) { return 1e-4F * static_cast<float>(i); }
+
+TEST(PointFile, ABinWithFiveNumbersAPointIsToldByItsRings) {
+  const TempFolder folder;
+  std::string bytes = Bin([](int i) { return std::vector{Ring(i)}; });
   const PointTable table = ReadPointFile(folder.Write("n015__LIDAR_TOP.pcd.bin", bytes));
   EXPECT_EQ(table.FieldNames(), "x y z intensity ring");
   EXPECT_EQ(table.count, 320U);
@@ -189,35 +200,18 @@ TEST(PointFile, ABinWithFiveNumbersAPointIsToldByItsRings) {
 
 TEST(PointFile, ABinWithMoreNumbersAPointIsRefused) {
   const TempFolder folder;
-  std::string bytes;
-  for (int i = 0; i < 320; ++i) {
-    const float row[] = {0.25F * static_cast<float>(i) + 0.1F,
-                         -3.3F,
-                         1.7F,
-                         static_cast<float>(i % 90),
-                         static_cast<float>(i % 32),
-                         1e-4F * static_cast<float>(i)};
-    bytes.append(reinterpret_cast<const char*>(row), sizeof(row));
-  }
   try {
-    ReadPointFile(folder.Write("six.bin", bytes));
+    ReadPointFile(folder.Write("six.bin", Bin([](int i) {
+                                 return std::vector{Ring(i), Time(i)};
+                               })));
     FAIL() << "rings and times were taken for coordinates";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("6 numbers a point"));
   }
-  std::string eight;
-  for (int i = 0; i < 320; ++i) {
-    const float row[] = {0.25F * static_cast<float>(i) + 0.1F,
-                         -3.3F,
-                         1.7F,
-                         static_cast<float>(i % 90),
-                         1e-4F * static_cast<float>(i),
-                         static_cast<float>(i % 32),
-                         0.0F,
-                         0.0F};
-    eight.append(reinterpret_cast<const char*>(row), sizeof(row));
-  }
-  EXPECT_THROW(ReadPointFile(folder.Write("eight.bin", eight)), InputError);
+  const auto file = folder.Write("eight.bin", Bin([](int i) {
+                                   return std::vector{Time(i), Ring(i), 0.0F, 0.0F};
+                                 }));
+  EXPECT_THROW(ReadPointFile(file), InputError);
 }
 
 TEST(PointFile, BinaryDataThatIsNoScanIsRefusedAsKittiBin) {
