@@ -4,12 +4,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <utility>
 
 #include "core/io/errors.h"
 #include "core/io/ros2/topic_names.h"
+#include "core/io/scan_listing.h"
 
 namespace trajlo {
 namespace {
@@ -46,34 +46,6 @@ void ReadMetadata(const std::filesystem::path& folder, Rosbag2Folder* found) {
     topic.messages = entry["message_count"].as<std::uint64_t>();
     found->topics.push_back(std::move(topic));
   }
-}
-
-/// Compares runs of digits as numbers: bag_9.db3 comes before bag_10.db3.
-bool NaturalLess(const std::string& a, const std::string& b) {
-  const auto digits = [](const std::string& text, std::size_t at) {
-    std::size_t end = at;
-    while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
-    return end - at;
-  };
-  std::size_t i = 0;
-  std::size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    const std::size_t n = digits(a, i);
-    const std::size_t m = digits(b, j);
-    if (n > 0 && m > 0) {
-      if (n != m) return n < m;
-      const int order = a.compare(i, n, b, j, m);
-      if (order != 0) return order < 0;
-      i += n;
-      j += m;
-    } else if (a[i] != b[j]) {
-      return a[i] < b[j];
-    } else {
-      ++i;
-      ++j;
-    }
-  }
-  return a.size() - i < b.size() - j;
 }
 
 std::vector<std::filesystem::path> ListBagFiles(const std::filesystem::path& folder) {

@@ -108,10 +108,10 @@ TEST(Rosbag2Reader, AFolderOfNoRecordingIsAnError) {
 
 TEST(Rosbag2Reader, NumbersInNamesOrderSplitFiles) {
   const TempFolder folder;
-  for (const char* name : {"a_10.db3", "a_9.db3", "a_100.db3", "a_0.db3"}) folder.Write(name, "");
+  for (const char* name : {"a_10.db3", "a_009.db3", "a_100.db3", "a_0.db3"}) folder.Write(name, "");
   std::vector<std::string> names;
   for (const auto& file : ReadRosbag2Folder(folder.path()).files) names.push_back(file.filename());
-  EXPECT_THAT(names, ElementsAre("a_0.db3", "a_9.db3", "a_10.db3", "a_100.db3"));
+  EXPECT_THAT(names, ElementsAre("a_0.db3", "a_009.db3", "a_10.db3", "a_100.db3"));
 }
 
 TEST(Db3Reader, ReadsInTheOrderOfTheRecordingTimesNotOfTheRows) {
