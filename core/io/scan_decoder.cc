@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "core/io/errors.h"
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -94,9 +96,7 @@ std::optional<std::int64_t> MiddleTime(const LidarScan& scan) {
     if (point.t_ns != kNoTime && point.xyz_m.allFinite()) times.push_back(point.t_ns);
   }
   if (times.empty()) return {};
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
+  return UpperMedian(std::move(times));
 }
 
 bool IsWithin(std::int64_t reach_ns, std::int64_t a_ns, std::int64_t b_ns) {

@@ -10,12 +10,14 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/io/ascii_table.h"
 #include "core/io/errors.h"
 #include "core/io/file_bytes.h"
 #include "core/io/stamp_of_name.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -112,9 +114,7 @@ double TimeLeftOut_s(const std::vector<std::int64_t>& t_ns, std::size_t i, doubl
       left_out_s.push_back(step_s - static_cast<double>(1 + a + b) * period_s);
     }
   }
-  const auto middle = left_out_s.begin() + static_cast<std::ptrdiff_t>(left_out_s.size() / 2);
-  std::nth_element(left_out_s.begin(), middle, left_out_s.end());
-  return *middle;
+  return UpperMedian(std::move(left_out_s));
 }
 
 /// Where the numbers in the names leave some out, scans are missing, and the stamps must leave out
@@ -132,10 +132,7 @@ void RequireTheSameGaps(const ScanListing& listing, const std::vector<std::int64
     before = *index;
   }
   if (steps.empty()) return;
-  std::vector<std::size_t> sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const std::size_t usual = std::max<std::size_t>(*middle, 1);
+  const std::size_t usual = std::max<std::size_t>(LowerMedian(steps), 1);
   const double period_s = TypicalPeriod(t_ns);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::size_t missing = steps[i] / usual - 1;
@@ -258,10 +255,7 @@ double TypicalPeriod(const std::vector<std::int64_t>& t_ns) {
   for (std::size_t i = 1; i < t_ns.size(); ++i) {
     if (t_ns[i] > t_ns[i - 1]) steps.push_back(t_ns[i] - t_ns[i - 1]);
   }
-  if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return 1e-9 * static_cast<double>(*middle);
+  return 1e-9 * static_cast<double>(LowerMedian(std::move(steps)));
 }
 
 }  // namespace trajlo

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/io/errors.h"
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -22,11 +23,6 @@ std::string Number(double value) {
   char text[40];
   std::snprintf(text, sizeof(text), "%.9g", value);
   return text;
-}
-
-double Median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 /// Of so many scans, one may be broken; of fewer, none.
@@ -47,7 +43,7 @@ Summary Summarise(const std::vector<TimeSample>& samples) {
     spans.push_back(sample.last - sample.first);
     sizes.push_back(std::max(std::abs(sample.first), std::abs(sample.last)));
   }
-  return {Median(firsts), Median(lasts), Median(spans), Median(sizes)};
+  return {UpperMedian(firsts), UpperMedian(lasts), UpperMedian(spans), UpperMedian(sizes)};
 }
 
 std::string Describe(const TimeEvidence& evidence, const Summary& summary) {
@@ -102,7 +98,7 @@ TimeOrigin RelativeOrigin(const Summary& summary) {
 
 /// From the smallest to the largest value, without so many that are farthest from the median.
 double RangeOfMost(std::vector<double> values, std::size_t left_out) {
-  const double middle = Median(values);
+  const double middle = UpperMedian(values);
   std::sort(values.begin(), values.end(),
             [&](double a, double b) { return std::abs(a - middle) < std::abs(b - middle); });
   values.resize(values.size() - std::min(left_out, values.size() - 1));
@@ -143,8 +139,8 @@ void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeCon
   if (change_ns > std::max(span_ns, 0.5e9 * evidence.period_s)) {
     fail("their distance from the stamps changes by " + Number(change_ns * 1e-9) + " s");
   }
-  const double after_first_ns = Median(stamp_after_first_ns);
-  const double after_last_ns = Median(stamp_after_last_ns);
+  const double after_first_ns = UpperMedian(stamp_after_first_ns);
+  const double after_last_ns = UpperMedian(stamp_after_last_ns);
   const bool at_end = std::abs(after_last_ns) < std::abs(after_first_ns);
   if (std::abs(after_first_ns) < 1e9 || std::abs(after_last_ns) < 1e9) {
     if (found->stamp_at == StampAt::kAuto) {
@@ -206,7 +202,7 @@ StampAt JudgeByRecording(const TimeEvidence& evidence, TimeConvention* found) {
     delays_s.push_back(1e-9 * static_cast<double>(*sample.recorded_ns - *sample.stamp_ns));
   }
   if (delays_s.empty()) return StampAt::kAuto;
-  const double delay_s = Median(delays_s);
+  const double delay_s = UpperMedian(delays_s);
   const double sweep_s = 1e-9 * static_cast<double>(found->sweep_ns);
   if (std::abs(delay_s) < kCopy_s) {
     Doubt("the times of recording are copies of them, and nothing else tells", found);

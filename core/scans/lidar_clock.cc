@@ -51,7 +51,7 @@ std::optional<bool> LidarClock::DoRecordTimesAgree(const LidarScan& scan,
   const std::int64_t span_ns = Difference(recorded_.back().begin_ns, recorded_.front().begin_ns);
   if (Difference(*most, *least) > span_ns / 2) return std::nullopt;
   const std::int64_t delay_ns = Difference(*scan.recorded_ns, place.begin_ns);
-  const std::int64_t change_ns = Difference(delay_ns, *LowerMedian(delays_ns));
+  const std::int64_t change_ns = Difference(delay_ns, LowerMedian(delays_ns));
   return change_ns <= kDelayTolerance_ns && change_ns >= -kDelayTolerance_ns;
 }
 
@@ -59,7 +59,7 @@ std::optional<std::int64_t> LidarClock::Drift() const {
   if (copies_stamps_ || first_delays_ns_.size() < kRemembered) return std::nullopt;
   std::vector<std::int64_t> last_delays_ns;
   for (const Recorded& recorded : recorded_) last_delays_ns.push_back(recorded.stamp_delay_ns);
-  return Difference(*LowerMedian(last_delays_ns), *LowerMedian(first_delays_ns_));
+  return Difference(LowerMedian(last_delays_ns), LowerMedian(first_delays_ns_));
 }
 
 void LidarClock::GuessPeriod(std::vector<std::int64_t> begins_ns,
@@ -71,10 +71,10 @@ void LidarClock::GuessPeriod(std::vector<std::int64_t> begins_ns,
     const std::int64_t step_ns = Difference(begins_ns[i], begins_ns[i - 1]);
     if (step_ns > 0) steps_ns.push_back(step_ns);
   }
-  period_ns_ = LowerMedian(steps_ns).value_or(0);
+  period_ns_ = LowerMedian(steps_ns);
   // Stamps that stand still: sweeps follow each other.
   const bool is_known = period_ns_ > 0 && period_ns_ <= kLongestPeriod_ns;
-  if (!is_known) period_ns_ = std::min(LowerMedian(spans_ns).value_or(0), kLongestPeriod_ns);
+  if (!is_known) period_ns_ = std::min(LowerMedian(spans_ns), kLongestPeriod_ns);
 }
 
 void LidarClock::Note(const LidarScan& scan, const ScanPlace& place) {

@@ -70,7 +70,7 @@ bool LidarTrack::FindOffset(const Others& others) {
   for (const HeldScan* held : held_) {
     ahead_ns.push_back(Difference(held->times.begin_ns, held->reference_ns));
   }
-  const std::int64_t median_ns = *LowerMedian(ahead_ns);
+  const std::int64_t median_ns = LowerMedian(ahead_ns);
   const std::int64_t bound_ns = others.max_lag_ns + clock_.period_ns() + reference.period_ns();
   // If the times as they were recorded meet, they are of one clock.
   const bool is_same_clock = Distance(median_ns, 0) <= bound_ns;

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-namespace trajlo {
+#include "core/scans/median.h"
 
-/// Of an even number of values the smaller of the two in the middle.
-inline std::optional<std::int64_t> LowerMedian(std::vector<std::int64_t> values) {
-  if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+namespace trajlo {
 
 /// The lower median of the last 16 values.
 class RecentMedian {
@@ -30,7 +23,9 @@ class RecentMedian {
   }
   std::size_t size() const { return values_.size(); }
   /// Empty if there is no value.
-  std::optional<std::int64_t> Value() const { return LowerMedian(values_); }
+  std::optional<std::int64_t> Value() const {
+    return values_.empty() ? std::nullopt : std::optional(LowerMedian(values_));
+  }
 
  private:
   static constexpr std::size_t kMost = 16;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/io/inspection/median.h"
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -83,7 +83,7 @@ PointSummary PointCounter::Summarise() const {
         std::minmax_element(points_per_message_.begin(), points_per_message_.end());
     summary.fewest = *fewest;
     summary.most = *most;
-    summary.median = MedianOf(points_per_message_);
+    summary.median = UpperMedian(points_per_message_);
   }
   summary.range_median_m = RangeQuantile(0.5);
   summary.range_99_m = RangeQuantile(0.99);

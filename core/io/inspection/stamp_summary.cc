@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/io/inspection/median.h"
 #include "core/io/scan_stamps.h"
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -37,7 +37,7 @@ StampSummary::Delay DelayOf(const std::vector<std::int64_t>& stamps_ns,
   std::vector<std::int64_t> delays_ns(stamps_ns.size());
   for (std::size_t i = 0; i < stamps_ns.size(); ++i) delays_ns[i] = recorded_ns[i] - stamps_ns[i];
   const auto [least, most] = std::minmax_element(delays_ns.begin(), delays_ns.end());
-  return {1e-9 * static_cast<double>(*least), 1e-9 * static_cast<double>(MedianOf(delays_ns)),
+  return {1e-9 * static_cast<double>(*least), 1e-9 * static_cast<double>(UpperMedian(delays_ns)),
           1e-9 * static_cast<double>(*most)};
 }
 

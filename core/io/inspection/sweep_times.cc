@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/io/inspection/median.h"
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -43,10 +43,10 @@ std::optional<SweepSummary> SweepTimes::Summarise(double period_s) const {
     if (are_neighbours) pauses_ns.push_back(begins_ns_[i] - ends_ns_[i - 1]);
   }
   SweepSummary summary;
-  summary.span_s = Seconds(MedianOf(spans_ns));
-  summary.pause_s = Seconds(MedianOf(pauses_ns));
-  summary.stamp_after_first_s = Seconds(MedianOf(after_first_ns));
-  summary.stamp_after_last_s = Seconds(MedianOf(after_last_ns));
+  summary.span_s = Seconds(UpperMedian(spans_ns));
+  summary.pause_s = Seconds(UpperMedian(pauses_ns));
+  summary.stamp_after_first_s = Seconds(UpperMedian(after_first_ns));
+  summary.stamp_after_last_s = Seconds(UpperMedian(after_last_ns));
   summary.points_without_time = points_without_time_;
   return summary;
 }
@@ -69,7 +69,7 @@ std::optional<SweepPhase> PhaseOf(const std::vector<std::int64_t>& begins_ns,
   if (phases_s.empty()) return {};
   const auto [least, most] = std::minmax_element(phases_s.begin(), phases_s.end());
   const double spread_s = *most - *least;
-  const double median_s = MedianOf(phases_s);
+  const double median_s = UpperMedian(phases_s);
   return SweepPhase{median_s - period_s * std::floor(median_s / period_s), spread_s};
 }
 

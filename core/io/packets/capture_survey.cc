@@ -11,6 +11,7 @@
 #include "core/io/errors.h"
 #include "core/io/packets/ouster_stream.h"
 #include "core/io/packets/velodyne_stream.h"
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -192,11 +193,8 @@ class Surveyor {
 
   void FinishOuster(Study* study) {
     study->stream.sweeps = study->counter->counts().sweeps;
-    std::vector<std::int64_t>& offsets_ns = study->capture_offsets_ns;
-    if (offsets_ns.empty()) return;
-    const auto middle = offsets_ns.begin() + static_cast<std::ptrdiff_t>(offsets_ns.size() / 2);
-    std::nth_element(offsets_ns.begin(), middle, offsets_ns.end());
-    study->stream.capture_offset_ns = *middle;
+    if (study->capture_offsets_ns.empty()) return;
+    study->stream.capture_offset_ns = UpperMedian(study->capture_offsets_ns);
   }
 
   std::string MissingMetadata() const {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/inlier_watch.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -35,9 +37,7 @@ double InlierWatch::Usual(double Window::*value, std::int64_t begin_ns) const {
     if (window->end_ns < begin_ns) break;
     values.push_back((*window).*value);
   }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return LowerMedian(std::move(values));
 }
 
 }  // namespace trajlo

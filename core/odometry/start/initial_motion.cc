@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/odometry/window/association.h"
+#include "core/scans/median.h"
 #include "factors/segment_linearizer.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -197,9 +199,7 @@ Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& inte
     best = tau;
     best_agreement = agreements.back();
   }
-  const auto median = agreements.begin() + static_cast<std::ptrdiff_t>(agreements.size() / 2);
-  std::nth_element(agreements.begin(), median, agreements.end());
-  const double chance = interval.size() * *median;
+  const double chance = interval.size() * UpperMedian(std::move(agreements));
   const double clear = chance + kClearDeviations * std::sqrt(std::max(chance, 1.0));
   if (interval.size() * best_agreement < clear) return found;
   return interval.Refine(best, kSearchFirstRound, kRounds);

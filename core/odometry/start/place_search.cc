@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "core/odometry/segments/choose_evenly.h"
+#include "core/scans/median.h"
 
 namespace trajlo {
 namespace {
@@ -129,9 +131,7 @@ double MedianRange(const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> ranges;
   ranges.reserve(points.size());
   for (const Eigen::Vector3d& p : points) ranges.push_back(p.norm());
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return *middle;
+  return UpperMedian(std::move(ranges));
 }
 
 std::vector<Eigen::Vector3d> ChoosePoints(const std::vector<Eigen::Vector3d>& sweep,

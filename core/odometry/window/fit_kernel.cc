@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
+#include "core/scans/median.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
@@ -42,9 +44,7 @@ void FitKernel(const RegistrationOptions& options, Window* window) {
   if (!has_kernel || options.kernel_in_spreads == 0.0) return;
   std::vector<double> sampled_m = SampleDistances(*window);
   if (sampled_m.size() < kFewest) return;
-  const auto median = sampled_m.begin() + static_cast<std::ptrdiff_t>(sampled_m.size() / 2);
-  std::nth_element(sampled_m.begin(), median, sampled_m.end());
-  const double spread_m = kSigmaOfMedian * *median;
+  const double spread_m = kSigmaOfMedian * UpperMedian(std::move(sampled_m));
   const double width_m =
       std::min(std::max(options.kernel_in_spreads * spread_m, options.sigma_m), options.kernel_m);
   double& width = window->noise.kernel.width;
