@@ -12,7 +12,7 @@
 #include "apps/evaluate/labels.h"
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
-#include "core/evaluation/format_text.h"
+#include "core/io/format_text.h"
 
 DEFINE_string(truth, "", "the ground truth; all other arguments are estimates then");
 DEFINE_string(names, "", "names of the estimates, separated by commas");

@@ -2,9 +2,9 @@
 #include "apps/compare/compare_report.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/io/format_text.h"
 #include "core/io/stamp_text.h"
 #include "core/report/csv_row.h"
 #include "core/report/versions.h"
@@ -13,13 +13,6 @@ namespace trajlo {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename... Values>
-std::string Format(const char* format, Values... values) {
-  char text[400];
-  std::snprintf(text, sizeof(text), format, values...);
-  return text;
-}
 
 double Ratio(double value, double to) { return to > 0.0 ? value / to : 0.0; }
 
@@ -30,14 +23,15 @@ const FreeResult* FindFree(const CompareReport& report, const std::string& name)
 }
 
 std::string LockstepTable(const CompareReport& report) {
-  std::string text = Format(
+  std::string text = FormatText(
       "lockstep: %d windows, each solved by all from the same start; ms: median per window\n",
       report.lockstep.front().windows());
-  text += Format("  %-22s %7s %9s %9s %9s %9s %7s %10s %10s\n", "variant", "steps", "rejected",
-                 "eval ms", "linear ms", "total ms", "ratio", "median m", "max m");
+  text += FormatText("  %-22s %7s %9s %9s %9s %9s %7s %10s %10s\n", "variant", "steps", "rejected",
+                     "eval ms", "linear ms", "total ms", "ratio", "median m", "max m");
   for (std::size_t i = 0; i < report.lockstep.size(); ++i) {
     const LockstepTotals& t = report.lockstep[i];
-    text += Format("  %-22s %7.2f %9d %9.3f %9.3f %9.3f %7.2f %10.1e %10.1e\n",
+    text +=
+        FormatText("  %-22s %7.2f %9d %9.3f %9.3f %9.3f %7.2f %10.1e %10.1e\n",
                    report.lockstep_variants[i].name.c_str(), t.StepsPerWindow(), t.rejected_steps(),
                    t.MedianEvaluateMs(), t.MedianLinearSolveMs(), t.MedianTotalMs(),
                    Ratio(t.MedianTotalMs(), report.lockstep.front().MedianTotalMs()),
@@ -49,19 +43,19 @@ std::string LockstepTable(const CompareReport& report) {
 std::string FreeTable(const CompareReport& report) {
   std::string text =
       "free: each runs the whole recording by itself; ratio and apart: to the first variant\n";
-  text += Format("  %-22s %9s %7s %9s %9s %11s %13s %9s\n", "variant", "cpu s", "ratio", "solve ms",
-                 "rejected", "apart m", "apart after s", "ATE m");
+  text += FormatText("  %-22s %9s %7s %9s %9s %11s %13s %9s\n", "variant", "cpu s", "ratio",
+                     "solve ms", "rejected", "apart m", "apart after s", "ATE m");
   for (const FreeResult& r : report.free) {
     const double windows = std::max(1, static_cast<int>(r.windows.windows));
     const std::string apart_after =
         r.parts_at_ns
-            ? Format("%.2f", 1e-9 * static_cast<double>(*r.parts_at_ns - r.poses.front().t_ns))
+            ? FormatText("%.2f", 1e-9 * static_cast<double>(*r.parts_at_ns - r.poses.front().t_ns))
             : "never";
-    text += Format("  %-22s %9.2f %7.2f %9.3f %9d %11.1e %13s %9s%s\n", r.name.c_str(), r.cpu_s,
-                   Ratio(r.cpu_s, report.free.front().cpu_s), r.windows.solve_ms / windows,
-                   r.rejected_steps, r.max_from_first_m, apart_after.c_str(),
-                   r.ate_rmse_m ? Format("%.4f", *r.ate_rmse_m).c_str() : "-",
-                   r.feed.lost_at_ns ? "  lost" : "");
+    text += FormatText("  %-22s %9.2f %7.2f %9.3f %9d %11.1e %13s %9s%s\n", r.name.c_str(), r.cpu_s,
+                       Ratio(r.cpu_s, report.free.front().cpu_s), r.windows.solve_ms / windows,
+                       r.rejected_steps, r.max_from_first_m, apart_after.c_str(),
+                       r.ate_rmse_m ? FormatText("%.4f", *r.ate_rmse_m).c_str() : "-",
+                       r.feed.lost_at_ns ? "  lost" : "");
   }
   return text;
 }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/evaluate/flag_values.h"
-#include "core/evaluation/format_text.h"
+#include "core/io/format_text.h"
 #include "core/io/stamp_text.h"
 #include "core/report/versions.h"
 

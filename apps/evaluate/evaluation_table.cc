@@ -5,7 +5,7 @@
 
 #include "apps/evaluate/flag_values.h"
 #include "apps/evaluate/metric_columns.h"
-#include "core/evaluation/format_text.h"
+#include "core/io/format_text.h"
 
 namespace trajlo {
 namespace {

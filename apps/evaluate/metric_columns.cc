@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/evaluation/format_text.h"
+#include "core/io/format_text.h"
 
 namespace trajlo {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/evaluation/format_text.h"
+#include "core/io/format_text.h"
 #include "core/io/inspection/findings.h"
 #include "core/io/inspection/run_advice.h"
 #include "core/io/stamp_text.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/evaluation/evaluation_error.h"
-#include "core/evaluation/format_text.h"
 #include "core/evaluation/one_to_one.h"
 #include "core/evaluation/stamp_search.h"
+#include "core/io/format_text.h"
 #include "core/io/scan_stamps.h"
 
 namespace trajlo {

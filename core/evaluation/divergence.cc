@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/evaluation/divergence.h"
 
-#include "core/evaluation/format_text.h"
+#include "core/io/format_text.h"
 
 namespace trajlo {
 

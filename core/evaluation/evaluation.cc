@@ -8,8 +8,8 @@
 #include "core/evaluation/absolute_error.h"
 #include "core/evaluation/completeness.h"
 #include "core/evaluation/evaluation_error.h"
-#include "core/evaluation/format_text.h"
 #include "core/evaluation/stamp_search.h"
+#include "core/io/format_text.h"
 
 namespace trajlo {
 namespace {

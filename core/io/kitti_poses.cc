@@ -3,10 +3,10 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cstdio>
 
 #include "core/io/errors.h"
 #include "core/io/finite_pose.h"
+#include "core/io/format_text.h"
 #include "core/io/number_text.h"
 #include "core/io/trajectory_lines.h"
 
@@ -62,10 +62,9 @@ std::vector<Eigen::Affine3d> ParseKittiPoses(const std::filesystem::path& path,
     poses.push_back(pose);
   }
   if (projected > 0 && warnings != nullptr) {
-    char number[32];
-    std::snprintf(number, sizeof(number), "%.1g", largest_deviation);
-    warnings->push_back(path.string() + ": rotations that are off by up to " + number + ": " +
-                        std::to_string(projected) + "; the nearest rotations are used");
+    warnings->push_back(path.string() + ": rotations that are off by up to " +
+                        FormatText("%.1g", largest_deviation) + ": " + std::to_string(projected) +
+                        "; the nearest rotations are used");
   }
   return poses;
 }

@@ -2,11 +2,11 @@
 #include "core/io/scan_folder.h"
 
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <utility>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/point_file.h"
 #include "core/io/scan_decoder.h"
 #include "core/io/stamp_text.h"
@@ -17,9 +17,7 @@ namespace trajlo {
 namespace {
 
 std::string Milliseconds(std::int64_t ns) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.6g ms", 1e-6 * static_cast<double>(ns));
-  return text;
+  return FormatText("%.6g ms", 1e-6 * static_cast<double>(ns));
 }
 
 }  // namespace

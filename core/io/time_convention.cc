@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/scans/median.h"
 
 namespace trajlo {
@@ -19,11 +19,7 @@ constexpr char kMend[] =
     "Set input.time_unit (s, ms, us, ns) and input.time_origin (start, stamp, end, absolute), or "
     "another input.time_field; for motion-corrected scans, input.point_time=none.";
 
-std::string Number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
-}
+std::string Number(double value) { return FormatText("%.9g", value); }
 
 /// Of so many scans, one may be broken; of fewer, none.
 std::size_t BrokenAllowed(const std::vector<TimeSample>& samples) {

@@ -2,7 +2,8 @@
 #include "core/report/flag_warnings.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "core/io/format_text.h"
 
 namespace trajlo {
 namespace {
@@ -11,9 +12,7 @@ namespace {
 constexpr double kWorthSaying = 0.02;
 
 std::string SecondsText(double seconds, double all_s) {
-  char text[80];
-  std::snprintf(text, sizeof(text), "%.2f s (%.1f %%)", seconds, 100.0 * seconds / all_s);
-  return text;
+  return FormatText("%.2f s (%.1f %%)", seconds, 100.0 * seconds / all_s);
 }
 
 /// "about_z" as "about z of the body".

@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "core/io/format_text.h"
 
 namespace trajlo {
 namespace {
 
-std::string Seconds(double seconds) {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.1f s", seconds);
-  return text;
-}
+std::string Seconds(double seconds) { return FormatText("%.1f s", seconds); }
 
 }  // namespace
 

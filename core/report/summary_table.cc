@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/summary_table.h"
 
-#include <cstdio>
-
+#include "core/io/format_text.h"
 #include "core/io/stamp_text.h"
 
 namespace trajlo {
 namespace {
 
-template <typename... Values>
-std::string Format(const char* format, Values... values) {
-  char text[400];
-  std::snprintf(text, sizeof(text), format, values...);
-  return text;
-}
-
 std::string Line(const char* name, const std::string& text) {
-  return Format("  %-12s", name) + text + "\n";
+  return FormatText("  %-12s", name) + text + "\n";
 }
 
 void AddCount(std::int64_t count, const char* what, std::string* text) {
@@ -40,7 +32,8 @@ std::string Flagged(const PoseFlags& flags) {
   std::string text;
   for (const auto& [name, total] : flags.totals()) {
     if (total.poses == 0) continue;
-    text += (text.empty() ? "" : ", ") + name + Format(" %zu (%.1f s)", total.poses, total.seconds);
+    text +=
+        (text.empty() ? "" : ", ") + name + FormatText(" %zu (%.1f s)", total.poses, total.seconds);
   }
   return text.empty() ? text : text + "; see flags.csv";
 }
@@ -49,7 +42,7 @@ std::string Flagged(const PoseFlags& flags) {
 std::string Stages(const WindowTotals& w) {
   const double sum = w.segment_ms + w.associate_ms + w.solve_ms + w.marginalize_ms + w.map_ms;
   if (sum <= 0.0) return "";
-  return Format(
+  return FormatText(
       "segment %.0f %%, associate %.0f %%, solve %.0f %%, marginalize %.0f %%, map %.0f %%",
       100.0 * w.segment_ms / sum, 100.0 * w.associate_ms / sum, 100.0 * w.solve_ms / sum,
       100.0 * w.marginalize_ms / sum, 100.0 * w.map_ms / sum);
@@ -59,31 +52,32 @@ std::string Stages(const WindowTotals& w) {
 
 std::string SummaryTable(const RunSummary& s) {
   std::string table;
-  table += Line("input", Format("%zu of %zu scans, %.2f million points, %.1f s", s.read.scans_read,
-                                s.read.scans_listed, 1e-6 * static_cast<double>(s.points.received),
-                                s.DataSeconds()));
+  table +=
+      Line("input", FormatText("%zu of %zu scans, %.2f million points, %.1f s", s.read.scans_read,
+                               s.read.scans_listed, 1e-6 * static_cast<double>(s.points.received),
+                               s.DataSeconds()));
   table += Line("dropped", Dropped(s));
   const std::string stamps = s.OddStamps();
   if (!stamps.empty()) table += Line("scans", stamps);
-  table += Line("trajectory", Format("%zu poses, %.2f m long, ends %.2f m from its start",
-                                     s.poses_written, s.path_length_m, s.distance_to_start_m));
-  table +=
-      Line("windows", std::to_string(s.windows.windows) +
-                          Format(", %.0f points each, %.0f %% inliers, %.1f rounds",
-                                 s.windows.Mean(s.windows.points), 100.0 * s.windows.InlierShare(),
-                                 s.windows.Mean(s.windows.rounds)));
+  table += Line("trajectory", FormatText("%zu poses, %.2f m long, ends %.2f m from its start",
+                                         s.poses_written, s.path_length_m, s.distance_to_start_m));
+  table += Line("windows",
+                std::to_string(s.windows.windows) +
+                    FormatText(", %.0f points each, %.0f %% inliers, %.1f rounds",
+                               s.windows.Mean(s.windows.points), 100.0 * s.windows.InlierShare(),
+                               s.windows.Mean(s.windows.rounds)));
   const std::string flagged = Flagged(s.flags);
   if (!flagged.empty()) table += Line("flagged", flagged);
   table +=
-      Line("speed", Format("%.1f x real time; per second of data: median %.0f ms, 95 %% within "
-                           "%.0f ms",
-                           s.RealTimeFactor(), s.median_ms, s.p95_ms));
+      Line("speed", FormatText("%.1f x real time; per second of data: median %.0f ms, 95 %% within "
+                               "%.0f ms",
+                               s.RealTimeFactor(), s.median_ms, s.p95_ms));
   const std::string stages = Stages(s.windows);
   if (!stages.empty()) table += Line("", stages);
-  table += Line("memory",
-                Format("%.0f MB at most; %zu points in the map", s.peak_memory_mb, s.map_points));
+  table += Line("memory", FormatText("%.0f MB at most; %zu points in the map", s.peak_memory_mb,
+                                     s.map_points));
   if (!s.warnings.empty()) {
-    table += Line("warnings", Format("%zu, listed in run.json", s.warnings.size()));
+    table += Line("warnings", FormatText("%zu, listed in run.json", s.warnings.size()));
   }
   if (s.lost_at_ns) table += Line("LOST", "at " + FormatSeconds(*s.lost_at_ns) + " s");
   table += Line("result", s.exit_reason + " (exit code " + std::to_string(s.exit_code.value_or(0)) +

@@ -12,8 +12,8 @@
 #include "apps/python/module/bindings.h"
 #include "apps/usage_error.h"
 #include "core/evaluation/evaluation_error.h"
-#include "core/evaluation/format_text.h"
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/scan_stamps.h"
 #include "core/odometry/trajectory/trajectory.h"
 

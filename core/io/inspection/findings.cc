@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
+#include "core/io/format_text.h"
 #include "core/io/stamp_text.h"
 
 namespace trajlo {
@@ -15,15 +14,6 @@ namespace {
 constexpr double kOverlapShare = 0.1;
 constexpr double kPauseShare = 0.5;
 constexpr std::size_t kFewReturns = 500;
-
-[[gnu::format(printf, 1, 2)]] std::string Text(const char* format, ...) {
-  char text[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof(text), format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings) {
   if (!cloud.time_problem.empty()) {
@@ -42,16 +32,16 @@ void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings
   const SweepSummary& sweeps = *cloud.sweeps;
   if (sweeps.pause_s < -kOverlapShare * sweeps.span_s) {
     findings->push_back(
-        Text("sweeps overlap by %.4g s: unit or origin of the times may be wrong "
-             "(input.time_unit, input.time_origin)",
-             -sweeps.pause_s));
+        FormatText("sweeps overlap by %.4g s: unit or origin of the times may be wrong "
+                   "(input.time_unit, input.time_origin)",
+                   -sweeps.pause_s));
   } else if (sweeps.pause_s > kPauseShare * sweeps.span_s) {
-    findings->push_back(Text("sweeps are %.4g s long, with pauses of %.4g s between them",
-                             sweeps.span_s, sweeps.pause_s));
+    findings->push_back(FormatText("sweeps are %.4g s long, with pauses of %.4g s between them",
+                                   sweeps.span_s, sweeps.pause_s));
   }
   if (sweeps.points_without_time > 0) {
     findings->push_back(
-        Text("%zu points have impossible times and are dropped", sweeps.points_without_time));
+        FormatText("%zu points have impossible times and are dropped", sweeps.points_without_time));
   }
 }
 
@@ -61,45 +51,48 @@ void JudgeStamps(const StampSummary& stamps, std::vector<std::string>* findings)
         stamps.gaps.begin(), stamps.gaps.end(),
         [](const StampGap& a, const StampGap& b) { return a.length_ns < b.length_ns; });
     findings->push_back(
-        Text("%zu gaps, about %zu scans are missing; the longest, %.4g s, is after ",
-             stamps.gaps.size(), stamps.missing, 1e-9 * static_cast<double>(longest->length_ns)) +
+        FormatText("%zu gaps, about %zu scans are missing; the longest, %.4g s, is after ",
+                   stamps.gaps.size(), stamps.missing,
+                   1e-9 * static_cast<double>(longest->length_ns)) +
         FormatSeconds(longest->after_ns) + " s");
   }
   if (stamps.duplicates > 0) {
-    findings->push_back(Text("%zu stamps repeat the one before, the first at ", stamps.duplicates) +
-                        FormatSeconds(*stamps.first_duplicate_ns) + " s");
+    findings->push_back(
+        FormatText("%zu stamps repeat the one before, the first at ", stamps.duplicates) +
+        FormatSeconds(*stamps.first_duplicate_ns) + " s");
   }
   if (stamps.steps_back > 0) {
-    findings->push_back(Text("%zu stamps step back by up to %.4g s, the first at ",
-                             stamps.steps_back, stamps.largest_step_back_s) +
+    findings->push_back(FormatText("%zu stamps step back by up to %.4g s, the first at ",
+                                   stamps.steps_back, stamps.largest_step_back_s) +
                         FormatSeconds(*stamps.first_step_back_ns) + " s");
   }
   if (stamps.jitter_s > 0.05 * stamps.period_s) {
-    findings->push_back(Text("the stamps jitter by %.2g s (root mean square), %.2g s at most",
-                             stamps.jitter_s, stamps.largest_deviation_s));
+    findings->push_back(FormatText("the stamps jitter by %.2g s (root mean square), %.2g s at most",
+                                   stamps.jitter_s, stamps.largest_deviation_s));
   }
 }
 
 void JudgePoints(const CloudInspection& cloud, std::vector<std::string>* findings) {
   const PointSummary& points = cloud.points;
   if (cloud.messages_unreadable > 0) {
-    findings->push_back(Text("%zu messages cannot be read: ", cloud.messages_unreadable) +
+    findings->push_back(FormatText("%zu messages cannot be read: ", cloud.messages_unreadable) +
                         cloud.first_unreadable);
   }
   if (cloud.messages_damaged > 0) {
-    findings->push_back(Text("%zu messages are damaged, the first: ", cloud.messages_damaged) +
-                        cloud.first_damage);
+    findings->push_back(
+        FormatText("%zu messages are damaged, the first: ", cloud.messages_damaged) +
+        cloud.first_damage);
   }
   if (points.empty_messages > 0) {
-    findings->push_back(Text("%zu messages have no points", points.empty_messages));
+    findings->push_back(FormatText("%zu messages have no points", points.empty_messages));
   }
   const std::size_t readable = cloud.messages_read - cloud.messages_unreadable;
   if (readable > 0 && points.Returns() < kFewReturns * readable) {
     findings->push_back(
-        Text("only %zu returns a message: little to register", points.Returns() / readable));
+        FormatText("only %zu returns a message: little to register", points.Returns() / readable));
   }
   if (cloud.frame_ids.size() > 1) {
-    findings->push_back(Text("%zu frame ids on one topic", cloud.frame_ids.size()));
+    findings->push_back(FormatText("%zu frame ids on one topic", cloud.frame_ids.size()));
   }
 }
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "core/io/format_text.h"
+
+#include <gtest/gtest.h>
+
+namespace trajlo {
+namespace {
+
+TEST(FormatText, IsNeverCut) {
+  EXPECT_EQ(FormatText("%s has %d of %.1f s", "A", 2, 0.25), "A has 2 of 0.2 s");
+  EXPECT_EQ(FormatText("%%"), "%");
+  const std::string name(2000, 'x');
+  EXPECT_EQ(FormatText("%s.csv", name.c_str()), name + ".csv");
+}
+
+}  // namespace
+}  // namespace trajlo
