@@ -32,13 +32,17 @@ std::int64_t Excerpt::ElapsedNs(const LidarScan& scan) {
 
 bool Excerpt::Next(LidarScan* scan) {
   const bool found = FindNext(scan);
-  UpdateReport(report_.scans_read + (found ? 1 : 0),
-               report_.points_read + (found ? scan->points.size() : 0));
+  if (found) {
+    ++scans_;
+    points_ += scan->points.size();
+    points_without_time_ += last_without_time_;
+  }
+  UpdateReport();
   return found;
 }
 
 bool Excerpt::FindNext(LidarScan* scan) {
-  while (whole_->Next(scan)) {
+  while (NextOfWhole(scan)) {
     const std::int64_t elapsed_ns = ElapsedNs(*scan);
     if (elapsed_ns < start_ns_) continue;
     if (duration_ns_ == 0 || elapsed_ns < start_ns_ + duration_ns_) return true;
@@ -49,10 +53,18 @@ bool Excerpt::FindNext(LidarScan* scan) {
   return false;
 }
 
-void Excerpt::UpdateReport(std::size_t scans, std::size_t points) {
+bool Excerpt::NextOfWhole(LidarScan* scan) {
+  const std::size_t before = whole_->report().points_without_time;
+  const bool found = whole_->Next(scan);
+  last_without_time_ = whole_->report().points_without_time - before;
+  return found;
+}
+
+void Excerpt::UpdateReport() {
   report_ = whole_->report();
-  report_.scans_read = scans;
-  report_.points_read = points;
+  report_.scans_read = scans_;
+  report_.points_read = points_;
+  report_.points_without_time = points_without_time_;
 }
 
 }  // namespace trajlo

@@ -216,6 +216,34 @@ TEST(Excerpt, CountsWhatItHandsOnAndNotWhatIsReadAroundIt) {
   EXPECT_EQ(excerpt.report().points_read, points);
 }
 
+/// A scan of ten points every 100 ms; those of the first five have no time.
+class LateClock final : public ScanSource {
+ public:
+  bool Next(LidarScan* scan) override {
+    if (report_.scans_read == size()) return false;
+    scan->stamp_ns = kStart + static_cast<std::int64_t>(report_.scans_read) * 100 * kMs;
+    scan->points.assign(10, {});
+    report_.points_without_time += ++report_.scans_read <= 5 ? 10 : 0;
+    return true;
+  }
+  std::size_t size() const override { return 30; }
+  const std::string& description() const override { return description_; }
+  const ReadReport& report() const override { return report_; }
+
+ private:
+  std::string description_;
+  ReadReport report_;
+};
+
+TEST(Excerpt, PointsWithoutTimesThatItLeavesOutAreNotCounted) {
+  Excerpt before(std::make_unique<LateClock>(), 0, 300 * kMs);
+  EXPECT_EQ(ReadAll(&before).size(), 3u);
+  EXPECT_EQ(before.report().points_without_time, 30u);
+  Excerpt after(std::make_unique<LateClock>(), 500 * kMs, 300 * kMs);
+  EXPECT_EQ(ReadAll(&after).size(), 3u);
+  EXPECT_EQ(after.report().points_without_time, 0u);
+}
+
 TEST(Excerpt, IsWhereItIsInSpiteOfWrongStamps) {
   constexpr std::int64_t kDay = 86'400'000 * kMs;
   for (const std::int64_t wrong_ns : {5 * kDay, -5 * kDay, 2'000 * kMs}) {
