@@ -28,8 +28,10 @@ def find(suite_file, word, names=None):
     found = next((folder / path for folder in (own, ROOT) if (folder / path).exists()), None)
     if found:
         return found
-    beside = [file.name for folder in (own, ROOT) for file in (folder / path).parent.glob("*")]
-    near = [*difflib.get_close_matches(path.name, () if is_name else beside, 1),
+    # Stems: the same ending does not make names alike.
+    beside = {} if is_name else {file.stem: file.name for folder in (own, ROOT)
+                                 for file in (folder / path).parent.glob("*")}
+    near = [*(beside[stem] for stem in difflib.get_close_matches(path.stem, beside, 1)),
             *difflib.get_close_matches(path.stem, names or {}, 1)]
     hint = f"; did you mean {near[0]}?" if near else ""
     raise SuiteError(f"{suite_file}: there is no configuration {word}{hint}" if is_name else

@@ -122,6 +122,8 @@ class SuiteFilesTest(FolderTest):
         self.write("mine/austere.yaml", "")
         self.refuse("mine/oustere.yaml", "did you mean austere.yaml?")
         self.refuse("/no/a.yaml", "there is no /no/a.yaml$")
+        self.write("c.yaml", "")  # Of the same ending, and of another name.
+        self.refuse("x.yaml", "/x.yaml$")
 
     def test_published_tables_are_found_in_the_same_way(self):
         suite = read_suite(self.write("s.yaml", SUITE + "published: mine.yaml\n"))
