@@ -25,8 +25,8 @@ def check_metric(experiment):
     """Throws SuiteError for a metric that no run has, or whose least value is not the best."""
     results.check_metric(experiment, METRICS)
     if not tables.SMALLER_IS_BETTER.fullmatch(experiment.metric):
-        raise SuiteError(f"{experiment.file}: metric: settings are ranked by the least value, which "
-                         f"is not the best of {experiment.metric}")
+        raise SuiteError(f"{experiment.file}: metric: settings are ranked from the least value up, "
+                         f"and the least {experiment.metric} is not the best")
 
 
 def window_columns(path, names):
