@@ -48,7 +48,7 @@ class PlaceAlong {
   SegmentMotion motion_{SE3(), SE3()};
 };
 
-/// No key is as small as this.
+/// The key of a point that is never taken: it compares as smaller than none.
 constexpr float kUnusable = std::numeric_limits<float>::quiet_NaN();
 
 std::int64_t FloorDivide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
@@ -92,6 +92,13 @@ void ScanSampler::SetKeys(const std::vector<LidarPoint>& points) {
 
 /// Points [first, end) of a scan, which lie in one moment.
 void ScanSampler::Take(const LidarScan& scan, std::size_t first, std::size_t end, Moment* moment) {
+  const auto is_wanted = [&](float key) { return key <= moment->largest_key; };
+  const auto keys = keys_.begin();
+  // Points in no order of time come one by one: most of them must cost no more than this look.
+  if (std::none_of(keys + static_cast<std::ptrdiff_t>(first),
+                   keys + static_cast<std::ptrdiff_t>(end), is_wanted)) {
+    return;
+  }
   const std::size_t count = options_.points_per_moment;
   std::vector<Kept>& points = moment->points;
   smallest_.clear();
@@ -105,7 +112,7 @@ void ScanSampler::Take(const LidarScan& scan, std::size_t first, std::size_t end
     smallest_.resize(count);
   };
   for (std::size_t i = first; i < end; ++i) {
-    if (!(keys_[i] <= bound)) continue;
+    if (!is_wanted(keys_[i])) continue;
     smallest_.push_back(keys_[i]);
     if (smallest_.size() > 2 * count) drop_larger();
   }
@@ -116,7 +123,7 @@ void ScanSampler::Take(const LidarScan& scan, std::size_t first, std::size_t end
   points.reserve(smallest_.size());
   const auto lidar = static_cast<std::uint16_t>(scan.lidar_id);
   for (std::size_t i = first; i < end && points.size() < count; ++i) {
-    if (!(keys_[i] <= bound)) continue;
+    if (!is_wanted(keys_[i])) continue;
     const LidarPoint& point = scan.points[i];
     points.push_back({point.xyz_m, point.intensity, point.t_ns, keys_[i], lidar});
   }
