@@ -11,14 +11,20 @@
 namespace trajlo {
 namespace {
 
-/// As YAML; each part of a list in quotes, whatever it holds.
+/// In quotes for YAML, so that no comma within begins another option.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "''" : std::string(1, c);
+  return quoted + "'";
+}
+
+/// What the flag says, as --set takes it.
 std::string ValueOf(const gflags::CommandLineFlagInfo& flag) {
-  if (!IsList(flag.name)) return flag.current_value;
+  if (flag.type != "string") return flag.current_value;
+  if (!IsList(flag.name)) return Quoted(flag.current_value);
   std::string list;
   for (const std::string& part : SplitAtCommas(flag.current_value)) {
-    list += (list.empty() ? "'" : ", '");
-    for (const char c : part) list += c == '\'' ? "''" : std::string(1, c);
-    list += "'";
+    list += (list.empty() ? "" : ", ") + Quoted(part);
   }
   return "[" + list + "]";
 }
@@ -48,8 +54,8 @@ RunConfig LoadConfig(const std::string& files, const std::string& settings,
     ApplyOverrides(settings, &first);
     ApplyOverrides(setting, &last, name);
     if (DumpConfig(first) == DumpConfig(last)) continue;
-    throw UsageError(name + "=" + flag.current_value + " is short for --set " + setting +
-                     ", and --set says otherwise");
+    throw UsageError(name + "=" + flag.current_value + " sets " + shorthand.key +
+                     ", and --set gives it another value");
   }
   return config;
 }

@@ -12,8 +12,8 @@ namespace trajlo {
 struct Shorthand {
   const char* flag;
   const char* key;
-  const char* otherwise =
-      "";  ///< What counts in place of --config if neither it nor --set is given.
+  /// Not empty: what the option is, whatever --config says, unless the flag or --set changes it.
+  const char* otherwise = "";
 };
 
 /// The defaults, changed by --config (see FindConfig) in its order, then by --set and by the
