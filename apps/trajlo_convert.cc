@@ -164,14 +164,14 @@ void CheckEnding(const std::filesystem::path& output, const std::vector<std::str
   std::string all;
   for (const std::string& known : endings) {
     if (ending == "." + known) return;
-    all += (all.empty() ? "." : ", .") + known;
+    all += (all.empty() ? "." : known == endings.back() ? " or ." : ", .") + known;
   }
   std::string word = ending.substr(1);
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::string nearest = trajlo::NearestKey(word, endings);
-  throw UsageError("the output ends in " + all + ", not in " + ending +
+  throw UsageError("the output must end in " + all + ", not in " + ending +
                    (nearest.empty() ? "" : "; did you mean ." + nearest + "?") +
-                   " (a folder whose name has a dot ends in '/')");
+                   " (the name of a folder, if it has a dot, must end in '/')");
 }
 
 /// Flags that a result has no use for are mistakes.

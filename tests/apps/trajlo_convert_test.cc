@@ -63,13 +63,13 @@ TEST_F(TrajloConvert, AMisspeltEndingMakesNoFolder) {
        {std::pair{"a.bgg", ".bag"}, {"a.mcpa", ".mcap"}, {"a.BAG", ".bag"}, {"a.pcap", ".mcap"}}) {
     const Outcome outcome = Convert({Path("room"), Path(name)});
     EXPECT_EQ(outcome.exit_code, 1) << name;
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("ends in .mcap, .db3, .bag, not in"),
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("must end in .mcap, .db3 or .bag, not in"),
                                    HasSubstr("did you mean " + std::string(nearest) + "?")));
     EXPECT_FALSE(std::filesystem::exists(Path(name)));
   }
   const Outcome poses = Convert({Path("room"), Path("poses.bag"), "--poses=/truth"});
   EXPECT_EQ(poses.exit_code, 1);
-  EXPECT_THAT(poses.err, HasSubstr("ends in .tum, .txt, not in .bag"));
+  EXPECT_THAT(poses.err, HasSubstr("must end in .tum or .txt, not in .bag"));
   for (const char* name : {"folder", "version1.2/"}) {
     EXPECT_EQ(Convert({Path("room"), Path(name)}).exit_code, 0) << name;
     EXPECT_TRUE(std::filesystem::exists(Path(name) + "/scans/000000.pcd"));
