@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Of segment_linearizer.cc alone: four points side by side, and the sums over them.
+// Four points of a segment side by side, and the sums over them.
 #pragma once
 
 #include <algorithm>
@@ -60,7 +60,16 @@ inline GatheredPoints Gather(const RegistrationPoint* points, std::size_t count)
   return GatheredPoints(filled);
 }
 
-/// The weights rho'(s), and the sum of ½ rho(s_i).
+/// rho'(s).
+inline Lane4 KernelWeight(const RobustKernel& kernel, const Lane4& s) {
+  const double a = kernel.width * kernel.width;
+  if (kernel.kind == KernelKind::kCauchy) return a / (a + s);
+  Lane4 weight{};
+  for (int i = 0; i < kLanes; ++i) weight[i] = kernel.Weight(s[i]);
+  return weight;
+}
+
+/// The sum of ½ rho(s_i).
 ///
 /// For Cauchy, that is a/2 log prod (1 + s_i/a): one logarithm for many points. A product of
 /// kGroups factors is far from the largest number.
@@ -69,13 +78,6 @@ class KernelSum {
   explicit KernelSum(const RobustKernel& kernel)
       : kernel_(kernel), a_(kernel.width * kernel.width), inverse_a_(1.0 / a_) {}
 
-  Lane4 AddAndWeigh(const Lane4& s) {
-    Add(s);
-    if (kernel_.kind == KernelKind::kCauchy) return a_ / (a_ + s);
-    Lane4 weight{};
-    for (int i = 0; i < kLanes; ++i) weight[i] = kernel_.Weight(s[i]);
-    return weight;
-  }
   void Add(const Lane4& s) {
     if (kernel_.kind == KernelKind::kCauchy) {
       product_ *= 1.0 + s * inverse_a_;

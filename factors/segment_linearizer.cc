@@ -16,6 +16,7 @@ using registration_lanes::BlockSum;
 using registration_lanes::Gather;
 using registration_lanes::GatheredPoints;
 using registration_lanes::KernelSum;
+using registration_lanes::KernelWeight;
 using registration_lanes::kGroups;
 using registration_lanes::kLanes;
 using registration_lanes::LocatedPoints;
@@ -30,11 +31,13 @@ struct GroupSums {
   KernelSum cost;
 };
 
-void LinearizeGroup(const GatheredPoints& points, const SegmentMotion& m, double sigma_m, int group,
-                    GroupSums* sums) {
+void LinearizeGroup(const GatheredPoints& points, const SegmentMotion& m,
+                    const RegistrationNoise& noise, int group, GroupSums* sums) {
   const LocatedPoints at(points, m);
-  const Lane4 information = at.weight / (sigma_m * sigma_m);
-  const Lane4 w = information * sums->cost.AddAndWeigh(information * at.r * at.r);
+  const Lane4 information = at.weight / (noise.sigma_m * noise.sigma_m);
+  const Lane4 s = information * at.r * at.r;
+  sums->cost.Add(s);
+  const Lane4 w = information * KernelWeight(noise.kernel, s);
 
   // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x
   // theta].
@@ -83,7 +86,7 @@ SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* poi
   GroupSums sums(noise_.kernel);
   int group = 0;
   for (size_t first = 0; first < count; first += kLanes) {
-    LinearizeGroup(Gather(points + first, count - first), motion_, noise_.sigma_m, group++, &sums);
+    LinearizeGroup(Gather(points + first, count - first), motion_, noise_, group++, &sums);
     if (group < kGroups && first + kLanes < count) continue;
     sums.H.AddGroups(std::exchange(group, 0));
     sums.cost.EndBlock();

@@ -140,6 +140,9 @@ std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory) const 
   const auto turn_rad = static_cast<float>(segmenter_.vertical_correction_deg * M_PI / 180.0);
   PlaceAlong place_along(trajectory);
   std::vector<WorldPoint> points;
+  std::size_t kept_points = 0;
+  for (const auto& [index, moment] : moments_) kept_points += moment.points.size();
+  points.reserve(kept_points);
   for (const auto& [index, moment] : moments_) {
     const std::int64_t moment_ns = *origin_ns_ + index * options_.moment_ns;
     for (const Kept& kept : moment.points) {

@@ -26,9 +26,9 @@ struct RigidInformation {
       A << se3::Adjoint(window.Pose(k).Inverse() * newest),
           se3::Adjoint(window.Pose(k + 1).Inverse() * newest);
       H += A.transpose() * segment.registration.H * A;
-      const Matrix6d A_end = A.bottomRows<6>();
-      H -= A_end.transpose() * segment.spurious.no_surface * A_end;
-      spurious.mean += A_end.transpose() * segment.spurious.mean * A_end;
+      const Matrix6d A_begin = A.topRows<6>();
+      H -= A_begin.transpose() * segment.spurious.no_surface * A_begin;
+      spurious.mean += A_begin.transpose() * segment.spurious.mean * A_begin;
       spurious.sum += segment.spurious.sum;
       spurious.sum_of_squares += segment.spurious.sum_of_squares;
       points += static_cast<double>(segment.points.size());
@@ -50,10 +50,11 @@ double SpreadOverPlaces(const Window& window, const Vector6d& u) {
   constexpr int kGroups = SpuriousInformation::kGroups;
   Eigen::Array<double, kGroups, 1> sums = Eigen::Array<double, kGroups, 1>::Zero();
   const SE3& newest = window.Pose(window.size());
-  for (const Segment& segment : window.segments) {
-    const Vector6d u_end = se3::Adjoint(segment.T_world_end.Inverse() * newest) * u;
+  for (int k = 0; k < window.size(); ++k) {
+    const SpuriousInformation& spurious = window.segments[static_cast<std::size_t>(k)].spurious;
+    const Vector6d u_begin = se3::Adjoint(window.Pose(k).Inverse() * newest) * u;
     for (int i = 0; i < kGroups; ++i) {
-      sums[i] += u_end.dot(segment.spurious.by_place[static_cast<std::size_t>(i)] * u_end);
+      sums[i] += u_begin.dot(spurious.by_place[static_cast<std::size_t>(i)] * u_begin);
     }
   }
   return std::sqrt((sums - sums.mean()).square().sum() * kGroups / (kGroups - 1.0));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <vector>
@@ -22,9 +23,11 @@ class PlaneCells {
 
   /// For sites with numbers below `sites`. Not beside Get().
   void Resize(std::size_t sites) {
-    while (blocks_.size() << kSitesPerBlockLog2 < sites) {
-      blocks_.emplace_back(kPerSite << kSitesPerBlockLog2);
-    }
+    constexpr std::size_t kSites = std::size_t{1} << kSitesPerBlockLog2;
+    if (blocks_.empty()) blocks_.emplace_back();
+    // A small map has a small block: to clear a whole one takes longer than to fit its planes.
+    blocks_.front().resize(kPerSite * std::min(sites, kSites));
+    while (blocks_.size() * kSites < sites) blocks_.emplace_back(kPerSite * kSites);
   }
   /// Forgets the planes of a site. Not beside Get().
   void Clear(std::uint32_t site) {
@@ -62,6 +65,10 @@ class PlaneCells {
   struct alignas(32) Cell {
     FittedPlane plane;
     std::atomic<std::uint32_t> fitted_at{kNever};  ///< Points around its site at the fit.
+
+    Cell() = default;
+    Cell(Cell&& other) noexcept
+        : plane(other.plane), fitted_at(other.fitted_at.load(std::memory_order_relaxed)) {}
   };
 
   static bool Stands(std::uint32_t fitted_at, std::uint32_t points_around) {
@@ -77,7 +84,7 @@ class PlaneCells {
     return blocks_[site >> kSitesPerBlockLog2][kPerSite * (site & kLast) + cell];
   }
 
-  /// They stay where they are while the map grows. A block is a huge page.
+  /// A block is a huge page; only the first one grows.
   mutable std::vector<std::vector<Cell, HugePageAllocator<Cell>>> blocks_;
 };
 

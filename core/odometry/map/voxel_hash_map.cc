@@ -119,7 +119,7 @@ void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
       if (accepted != nullptr) accepted->push_back(point);
       around[placed][0] = slot;
       for (std::size_t f = 0; f < 6; ++f) {
-        around[placed][1 + f] = index_.FindOrAdd(keys[i] + kFaces[f]);
+        around[placed][1 + f] = index_.FindOrAddBeside(keys[i], slot, keys[i] + kFaces[f]);
         index_.Prefetch(around[placed][1 + f]);
       }
       ++placed;
@@ -222,7 +222,9 @@ void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors*
   neighbors->count = 0;
   const VoxelKey key = KeyOf(query_world);
   VoxelIndex::Slot around[7] = {index_.Find(key)};
-  for (int i = 0; i < 6; ++i) around[1 + i] = index_.Find(key + kFaces[i]);
+  for (int i = 0; i < 6; ++i) {
+    around[1 + i] = index_.FindBeside(key, around[0], key + kFaces[i]);
+  }
   std::uint32_t blocks[7];
   for (int i = 0; i < 7; ++i) {
     blocks[i] = around[i] == VoxelIndex::kNoSlot ? VoxelIndex::kNoBlock : index_[around[i]].block;

@@ -57,8 +57,16 @@ class VoxelIndex {
     const std::uint32_t brick = FindBrick(BrickKey(key));
     return brick == kNoBrick ? kNoSlot : brick * kVoxels + Within(key);
   }
+  /// The same, given where `beside`, a voxel near by, is: mostly in the same brick.
+  Slot FindBeside(const VoxelKey& beside, Slot slot, const VoxelKey& key) const {
+    const bool is_in_brick = slot != kNoSlot && BrickKey(beside) == BrickKey(key);
+    return is_in_brick ? InBrickOf(slot, key) : Find(key);
+  }
   /// A new entry is empty.
   Slot FindOrAdd(const VoxelKey& key);
+  Slot FindOrAddBeside(const VoxelKey& beside, Slot slot, const VoxelKey& key) {
+    return BrickKey(beside) == BrickKey(key) ? InBrickOf(slot, key) : FindOrAdd(key);
+  }
   void Erase(const VoxelKey& key);
 
   Entry& operator[](Slot slot) { return bricks_[slot / kVoxels].entries[slot % kVoxels]; }
@@ -96,6 +104,9 @@ class VoxelIndex {
     const auto x = static_cast<std::uint32_t>(key.x()), y = static_cast<std::uint32_t>(key.y()),
                z = static_cast<std::uint32_t>(key.z());
     return (x & 1) | (y & 1) << 1 | (z & 1) << 2 | (x & 2) << 2 | (y & 2) << 3 | (z & 2) << 4;
+  }
+  static Slot InBrickOf(Slot slot, const VoxelKey& key) {
+    return slot / kVoxels * kVoxels + Within(key);
   }
   /// The finaliser of SplitMix64: neighbours land far apart.
   std::size_t Home(std::uint64_t key) const {

@@ -75,6 +75,7 @@ bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::
 
 void Segmenter::OpenNext(std::int64_t end_ns, bool is_gap) {
   slots_.push_back({*end_ns_, end_ns, is_gap, {}});
+  if (!is_gap) slots_.back().points.reserve(usual_points_);
   end_ns_ = end_ns;
 }
 
@@ -204,6 +205,7 @@ std::optional<SegmentCloud> Segmenter::Next() {
   cloud.begin_ns = slot.begin_ns;
   cloud.end_ns = slot.end_ns;
   cloud.is_gap = slot.is_gap;
+  usual_points_ = slot.points.size() + slot.points.size() / 8;
   for (std::size_t lidar = 0; lidar < newest_ns_.size(); ++lidar) {
     cloud.lidar_origins_body_m.push_back(PoseOf(lidar).t);
   }

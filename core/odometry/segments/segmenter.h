@@ -105,7 +105,8 @@ class Segmenter {
   VoxelFilter map_filter_;
   VoxelFilter registration_filter_;
   bool first_taken_ = false;
-  std::deque<Slot> slots_;  ///< Not yet handed out, without holes.
+  std::size_t usual_points_ = 0;  ///< What a segment holds, and a little more.
+  std::deque<Slot> slots_;        ///< Not yet handed out, without holes.
   std::int64_t complete_until_ns_;
   std::vector<std::int64_t> newest_ns_;  ///< Newest time of each LiDAR.
   std::optional<std::int64_t> end_ns_;   ///< End of the newest slot.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window/graduated_kernel.h"
 
-#include <cmath>
-
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/window_equations.h"
 
@@ -50,7 +48,8 @@ bool GraduatedKernel::Widen(Segment* newest) {
   weights_.clear();
   for (RegistrationPoint& point : points) {
     weights_.push_back(point.weight);
-    point.weight *= std::pow(point.coarseness, 3) / (1.0 + f(point));
+    const double coarseness = point.coarseness;
+    point.weight *= coarseness * coarseness * coarseness / (1.0 + f(point));
   }
   reach_ *= kShrink;
   newest->linearization.reset();

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window/spurious_information.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "core/odometry/map/voxel_index.h"
-#include "manifolds/se3_interpolation.h"
+#include "factors/registration_lanes.h"
 
 namespace trajlo {
 namespace {
+
+using lanes::Broadcast;
+using lanes::Broadcast3;
+using lanes::Lane4;
+using lanes::Vector3;
+using registration_lanes::kLanes;
+using registration_lanes::LocatedPoints;
 
 /// The edge of a place: planes that are nearer to each other are fitted to points in common.
 constexpr double kPlace_m = 0.5;
@@ -24,10 +32,58 @@ std::size_t GroupOf(const Eigen::Vector3d& x_world) {
   return hash % SpuriousInformation::kGroups;
 }
 
-/// sum a_i G_i G_iᵀ from the sums of a_i, a_i x_i and a_i x_i x_iᵀ.
-Matrix6d IsotropicSum(double sum, const Eigen::Vector3d& first, const Eigen::Matrix3d& second) {
+/// Four points, with a vector of lanes for each.
+struct PointVectors {
+  Lane4 y[kLanes];                            ///< [p0; 1]
+  Lane4 j_head[kLanes], j_tail[kLanes];       ///< j = [n0; p0 x n0], of six
+  std::array<Eigen::Vector3d, kLanes> world;  ///< Their places.
+
+  PointVectors(const LocatedPoints& at, const SegmentMotion& motion)
+      : y{at.p0.x, at.p0.y, at.p0.z, Broadcast<Lane4>(1.0)} {
+    const Vector3<Lane4> moment = lanes::Cross(at.p0, at.n0);
+    const Vector3<Lane4> x =
+        lanes::Rotate(motion.R_begin, at.p0) + Broadcast3<Lane4>(motion.t_begin);
+    for (std::size_t i = 0; i < kLanes; ++i) world[i] = {x.x[i], x.y[i], x.z[i]};
+    const Lane4 head[] = {at.n0.x, at.n0.y, at.n0.z, moment.x};
+    const Lane4 tail[] = {moment.y, moment.z, Lane4{}, Lane4{}};
+    std::copy_n(head, kLanes, j_head);
+    std::copy_n(tail, kLanes, j_tail);
+    lanes::Transpose(&y[0], &y[1], &y[2], &y[3]);
+    lanes::Transpose(&j_head[0], &j_head[1], &j_head[2], &j_head[3]);
+    lanes::Transpose(&j_tail[0], &j_tail[1], &j_tail[2], &j_tail[3]);
+  }
+};
+
+/// sum a j jᵀ.
+struct JacobianProducts {
+  Lane4 head[6] = {}, tail[6] = {};
+
+  void Add(double a, const Lane4& j_head, const Lane4& j_tail) {
+    for (int row = 0; row < 6; ++row) {
+      const double a_j = a * (row < 4 ? j_head[row] : j_tail[row - 4]);
+      head[row] += a_j * j_head;
+      tail[row] += a_j * j_tail;
+    }
+  }
+  Matrix6d Sum() const {
+    Matrix6d sum;
+    for (int row = 0; row < 6; ++row) {
+      for (int i = 0; i < 4; ++i) sum(row, i) = head[row][i];
+      for (int i = 0; i < 2; ++i) sum(row, 4 + i) = tail[row][i];
+    }
+    return sum;
+  }
+};
+
+/// sum a G Gᵀ, G = [I; [p0]x], from the sum of a y yᵀ.
+Matrix6d IsotropicSum(const Lane4 (&a_yy)[4]) {
+  const Eigen::Vector3d first(a_yy[3][0], a_yy[3][1], a_yy[3][2]);
+  Eigen::Matrix3d second;
+  for (int row = 0; row < 3; ++row) {
+    for (int i = 0; i < 3; ++i) second(row, i) = a_yy[row][i];
+  }
   Matrix6d result;
-  result.topLeftCorner<3, 3>() = sum * Eigen::Matrix3d::Identity();
+  result.topLeftCorner<3, 3>() = a_yy[3][3] * Eigen::Matrix3d::Identity();
   result.bottomLeftCorner<3, 3>() = so3::Hat(first);
   result.topRightCorner<3, 3>() = so3::Hat(first).transpose();
   result.bottomRightCorner<3, 3>() = second.trace() * Eigen::Matrix3d::Identity() - second;
@@ -40,36 +96,36 @@ SpuriousInformation SpuriousInformationOf(const std::vector<RegistrationPoint>& 
                                           const SE3& T_begin, const SE3& T_end,
                                           const RegistrationNoise& noise) {
   const SegmentMotion motion(T_begin, T_end);
-  const SE3 T_end_world = T_end.Inverse();
-  const Eigen::Matrix3d R_end_world = T_end_world.q.toRotationMatrix();
   const double information = 1.0 / (noise.sigma_m * noise.sigma_m);
   SpuriousInformation spurious;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  Matrix6d along_normals = Matrix6d::Zero();
-  for (const RegistrationPoint& point : points) {
-    const Eigen::Vector3d x_world = motion.ToWorld(point.alpha, point.p_body_m);
-    const double r = point.DistanceToPlane(x_world);
-    const double weight = point.weight * information;
-    const double w = weight * noise.kernel.Weight(weight * r * r);
-    const Eigen::Vector3d x = R_end_world * x_world + T_end_world.t;
-    const Eigen::Vector3d n = R_end_world * point.normal_world;
-    Vector6d j;
-    j << n, x.cross(n);
-    const Matrix6d product = j * j.transpose();
-    if (std::isinf(point.normal_variance_rad2)) {
-      spurious.no_surface += w * product;
-      continue;
+  JacobianProducts along_normals, no_surface, by_place[SpuriousInformation::kGroups];
+  Lane4 a_yy[4] = {};
+  for (std::size_t first = 0; first < points.size(); first += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
+    const LocatedPoints at(registration_lanes::Gather(&points[first], count), motion);
+    const Lane4 weight = information * at.weight;
+    const Lane4 w = weight * registration_lanes::KernelWeight(noise.kernel, weight * at.r * at.r);
+    const PointVectors vectors(at, motion);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double variance = points[first + i].normal_variance_rad2;
+      const Lane4 &head = vectors.j_head[i], &tail = vectors.j_tail[i], &y = vectors.y[i];
+      if (std::isinf(variance)) {
+        no_surface.Add(w[i], head, tail);
+        continue;
+      }
+      const double a = w[i] * variance;
+      by_place[GroupOf(vectors.world[i])].Add(w[i], head, tail);
+      along_normals.Add(a, head, tail);
+      for (int row = 0; row < 4; ++row) a_yy[row] += (a * y[row]) * y;
+      spurious.sum_of_squares += a * a;
     }
-    const double a = w * point.normal_variance_rad2;
-    spurious.by_place[GroupOf(x_world)] += w * product;
-    along_normals += a * product;
-    first += a * x;
-    second.noalias() += a * x * x.transpose();
-    spurious.sum += a;
-    spurious.sum_of_squares += a * a;
   }
-  spurious.mean = IsotropicSum(spurious.sum, first, second) - along_normals;
+  spurious.sum = a_yy[3][3];
+  spurious.mean = IsotropicSum(a_yy) - along_normals.Sum();
+  spurious.no_surface = no_surface.Sum();
+  for (std::size_t i = 0; i < spurious.by_place.size(); ++i) {
+    spurious.by_place[i] = by_place[i].Sum();
+  }
   return spurious;
 }
 

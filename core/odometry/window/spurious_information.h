@@ -21,7 +21,7 @@ namespace trajlo {
 /// Jacobian and v_i the variance of its normal. H - F is what the true planes would have given. It
 /// is computed when a segment is the newest, and kept.
 struct SpuriousInformation {
-  /// F for a rigid perturbation [rho; theta] of the body frame at the end of the segment.
+  /// F for a rigid perturbation [rho; theta] of the body frame at the begin of the segment.
   Matrix6d mean = Matrix6d::Zero();
   /// Sums of w_i v_i and of (w_i v_i)²: how many normals are independent, see ConditionOf.
   double sum = 0.0;

@@ -26,8 +26,15 @@ TEST(VoxelIndex, IsAMapFromVoxelsThroughAdditionsAndErasures) {
     if (is_there) {
       ASSERT_EQ(index[found].block, reference.at(k));
     }
+    const VoxelKey beside = key + VoxelKey::Unit(static_cast<int>(i % 3));
+    const VoxelIndex::Slot near = index.Find(beside);
+    ASSERT_EQ(index.FindBeside(beside, near, key), found);
     if (random.Uniform(0, 1) < 0.55) {
-      index[index.FindOrAdd(key)].block = i;
+      const VoxelIndex::Slot slot = near != VoxelIndex::kNoSlot
+                                        ? index.FindOrAddBeside(beside, near, key)
+                                        : index.FindOrAdd(key);
+      ASSERT_EQ(slot, index.Find(key));
+      index[slot].block = i;
       reference[k] = i;
     } else {
       index.Erase(key);

@@ -32,11 +32,11 @@ std::vector<RegistrationPoint> NoisyPoints(Random* random, int count, bool is_ro
   return points;
 }
 
-/// H of a rigid motion of the segment, in the frame of its end.
+/// H of a rigid motion of the segment, in the frame of its begin.
 Matrix6d RigidH(const std::vector<RegistrationPoint>& points, const SE3& T_begin, const SE3& T_end,
                 const RegistrationNoise& noise) {
   Eigen::Matrix<double, 12, 6> A;
-  A << se3::Adjoint(T_begin.Inverse() * T_end), Matrix6d::Identity();
+  A << Matrix6d::Identity(), se3::Adjoint(T_end.Inverse() * T_begin);
   return A.transpose() * LinearizeSegment(points, T_begin, T_end, noise).H * A;
 }
 
@@ -68,7 +68,7 @@ TEST(SpuriousInformation, IsInTheMeanWhatNoisyNormalsAddToTheTrueInformation) {
   EXPECT_LT((noisy - spurious - truth).norm(), 0.1 * size);
   // Along the corridor there is nothing but noise.
   Vector6d along = Vector6d::Zero();
-  along.head<3>() = T_end.q.conjugate() * Eigen::Vector3d::UnitX();
+  along.head<3>() = T_begin.q.conjugate() * Eigen::Vector3d::UnitX();
   EXPECT_NEAR(along.dot((noisy - spurious) * along) / along.dot(noisy * along), 0.0, 0.1);
 }
 
