@@ -58,8 +58,9 @@ std::vector<std::size_t> ChooseTopics(const std::filesystem::path& path,
 }  // namespace
 
 CloudRecording::CloudRecording(const std::filesystem::path& path, const Open& open,
-                               const RecordingOptions& options, std::size_t first_lidar_id)
-    : path_(path), reader_(open()) {
+                               const RecordingOptions& options, std::size_t first_lidar_id,
+                               bool read_ahead)
+    : path_(path), read_ahead_(read_ahead), reader_(open()) {
   SelectStreams(options, first_lidar_id);
   Probe(open().get(), options);
   Describe();
@@ -146,7 +147,8 @@ CloudRecording::Outcome CloudRecording::Decode(LidarScan reused) {
 }
 
 void CloudRecording::StartNext(LidarScan reused) {
-  ahead_ = std::async(std::launch::async, &CloudRecording::Decode, this, std::move(reused));
+  const auto policy = read_ahead_ ? std::launch::async : std::launch::deferred;
+  ahead_ = std::async(policy, &CloudRecording::Decode, this, std::move(reused));
 }
 
 bool CloudRecording::Next(LidarScan* scan) {

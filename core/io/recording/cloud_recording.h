@@ -24,9 +24,11 @@ class CloudRecording : public ScanSource {
   /// Opens the file anew: it is read once for evidence, and once for the scans.
   using Open = std::function<std::unique_ptr<CloudMessageReader>()>;
 
-  /// `first_lidar_id` is that of the first topic in `options.topics`.
+  /// `first_lidar_id` is that of the first topic in `options.topics`. With `read_ahead`, the next
+  /// message is decoded in the background while the present scan is worked on.
   CloudRecording(const std::filesystem::path& path, const Open& open,
-                 const RecordingOptions& options, std::size_t first_lidar_id = 0);
+                 const RecordingOptions& options, std::size_t first_lidar_id = 0,
+                 bool read_ahead = true);
   // The background decoding holds a pointer to this object.
   CloudRecording(const CloudRecording&) = delete;
   CloudRecording& operator=(const CloudRecording&) = delete;
@@ -69,6 +71,7 @@ class CloudRecording : public ScanSource {
   void TakeOver(const MessageReport& message_report);
 
   std::filesystem::path path_;
+  bool read_ahead_;
   std::unique_ptr<CloudMessageReader> reader_;
   std::vector<Stream> streams_;
   std::string description_;

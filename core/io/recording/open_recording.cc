@@ -18,8 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::unique_ptr<ScanSource> OpenFolder(const std::string& input, const RecordingOptions& options,
-                                       std::size_t lidar_id) {
+                                       std::size_t lidar_id, bool read_ahead) {
   ScanFolderOptions own;
+  own.read_ahead = read_ahead;
   own.lidar_id = static_cast<int>(lidar_id);
   own.time = options.TimeOf(lidar_id);
   own.stamps_file = options.stamps_file;
@@ -66,15 +67,16 @@ std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs
   CloudOptions clouds;
   clouds.packets.velodyne_model = options.velodyne_model;
   clouds.threads = threads;
+  const bool read_ahead = threads != 1;
   std::vector<std::unique_ptr<ScanSource>> sources;
   std::size_t lidar_id = 0;
   for (const std::string& input : inputs) {
     if (!HoldsClouds(input)) {
-      sources.push_back(OpenFolder(input, options, lidar_id++));
+      sources.push_back(OpenFolder(input, options, lidar_id++, read_ahead));
       continue;
     }
     auto recording = std::make_unique<CloudRecording>(
-        input, [&] { return OpenClouds(input, clouds); }, options, lidar_id);
+        input, [&] { return OpenClouds(input, clouds); }, options, lidar_id, read_ahead);
     lidar_id += recording->lidars();
     sources.push_back(std::move(recording));
   }

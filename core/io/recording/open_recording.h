@@ -24,7 +24,8 @@ std::vector<std::string> LidarNames(const std::vector<std::string>& inputs,
 ///   - a bag (.bag, .db3, .mcap), a capture of packets (.pcap), or a folder of bags that follow
 ///     each other: as many LiDARs as `options.topics` names.
 /// `lidar_id` counts through the inputs. Several inputs are merged (see MergedRecording).
-/// `threads` as in CloudOptions; the scans do not depend on it. Throws InputError.
+/// With other than one of `threads` (see CloudOptions), the next scan is read while the present one
+/// is worked on; the scans do not depend on it. Throws InputError.
 std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs,
                                           const RecordingOptions& options, int threads = 1);
 
