@@ -3,9 +3,10 @@
 # Builds with sanitizers and runs the tests and five short runs.
 #   scripts/sanitize.sh asan           addresses and undefined behaviour (clang), in build-asan
 #   scripts/sanitize.sh tsan           threads, in build-tsan, with a oneTBB built for it
+#   scripts/sanitize.sh tsan --fast    only the tests with the label fast, and the five runs
 #   scripts/sanitize.sh asan --slice   few parts only: see below
-#   scripts/sanitize.sh tsan --slice
 # The five runs: a folder, a bag, two LiDARs, motion-corrected scans (KITTI), a bag that is cut.
+# The slow tests are mostly long runs, which take hours here, and run no code of their own.
 # The slice is what continuous integration has time for: the whole method, on the random scans of the
 # fuzz targets (tests/fuzz/corpus), with one thread and with four.
 # A report of a sanitizer ends the program with a code that none of its own exits has.
@@ -13,9 +14,9 @@ set -euo pipefail
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 jobs="${TRAJLO_JOBS:-$(nproc)}"
 
-usage() { sed -n '3,11p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; }
+usage() { sed -n '3,12p' "${BASH_SOURCE[0]}" | sed 's/^# \{0,1\}//'; }
 kind="${1:-}"
-slice="${2:-}"
+part="${2:-}"
 case "$kind" in
   asan | tsan) ;;
   -h | --help)
@@ -27,7 +28,13 @@ case "$kind" in
     exit 1
     ;;
 esac
-[[ -z "$slice" || "$slice" == --slice ]] || { usage >&2; exit 1; }
+case "$part" in
+  '' | --fast | --slice) ;;
+  *)
+    usage >&2
+    exit 1
+    ;;
+esac
 build="${TRAJLO_BUILD_DIR:-$root/build-$kind}"
 
 export ASAN_OPTIONS="exitcode=86:detect_stack_use_after_return=1:${ASAN_OPTIONS:-}"
@@ -98,12 +105,14 @@ run_five() {
 }
 
 [[ "$kind" == asan ]] || build_tbb
-if [[ -n "$slice" ]]; then
+if [[ "$part" == --slice ]]; then
   run_slice
 else
   build_targets
+  label=()
+  [[ -z "$part" ]] || label=(--label-regex '^fast$')
   ctest --test-dir "$build" --parallel "$jobs" --timeout 3600 --output-on-failure --no-tests=error \
-    -E '^scripts\.'
+    -E '^scripts\.' "${label[@]}"
   run_five
 fi
 echo "sanitize.sh: $kind found nothing"
