@@ -38,23 +38,28 @@ struct GatheredPoints {
   Vector3<Lane4> p, n;
   Lane4 alpha, offset, weight;
 
-  explicit GatheredPoints(const RegistrationPoint* points)
-      : p{LoadFour(points[0], 0), LoadFour(points[1], 0), LoadFour(points[2], 0)},
-        n{LoadFour(points[0], 4), LoadFour(points[1], 4), LoadFour(points[2], 4)},
-        alpha(LoadFour(points[3], 0)),
-        offset(LoadFour(points[3], 4)),
-        weight{points[0].weight, points[1].weight, points[2].weight, points[3].weight} {
+  explicit GatheredPoints(const RegistrationPoint* first, std::size_t stride = 1)
+      : GatheredPoints(first[0], first[stride], first[2 * stride], first[3 * stride]) {}
+
+  GatheredPoints(const RegistrationPoint& p0, const RegistrationPoint& p1,
+                 const RegistrationPoint& p2, const RegistrationPoint& p3)
+      : p{LoadFour(p0, 0), LoadFour(p1, 0), LoadFour(p2, 0)},
+        n{LoadFour(p0, 4), LoadFour(p1, 4), LoadFour(p2, 4)},
+        alpha(LoadFour(p3, 0)),
+        offset(LoadFour(p3, 4)),
+        weight{p0.weight, p1.weight, p2.weight, p3.weight} {
     lanes::Transpose(&p.x, &p.y, &p.z, &alpha);
     lanes::Transpose(&n.x, &n.y, &n.z, &offset);
   }
 };
 
-/// The first four points; where there are fewer, lanes without weight fill up.
-inline GatheredPoints Gather(const RegistrationPoint* points, std::size_t count) {
-  if (count >= kLanes) return GatheredPoints(points);
+/// The first four of every `stride`-th point; where there are fewer, lanes without weight fill up.
+inline GatheredPoints Gather(const RegistrationPoint* points, std::size_t count,
+                             std::size_t stride = 1) {
+  if (count >= kLanes) return GatheredPoints(points, stride);
   RegistrationPoint filled[kLanes];
   for (std::size_t i = 0; i < kLanes; ++i) {
-    filled[i] = points[std::min(i, count - 1)];
+    filled[i] = points[stride * std::min(i, count - 1)];
     if (i >= count) filled[i].weight = 0.0;
   }
   return GatheredPoints(filled);

@@ -3,6 +3,7 @@
 #include <ceres/crs_matrix.h>
 #include <ceres/problem.h>
 
+#include "factors/plane_distances.h"
 #include "factors/point_to_plane.h"
 #include "factors/segment_registration.h"
 #include "tests/support/autodiff_twins.h"
@@ -150,6 +151,25 @@ TEST(SegmentRegistration, CostAloneEqualsTheCostOfTheLinearization) {
   const SegmentLinearizer linearizer(begin, end, noise);
   EXPECT_NEAR(linearizer.Cost(points.data(), points.size()),
               linearizer.Linearize(points.data(), points.size()).cost, 1e-9);
+}
+
+TEST(PlaneDistances, AreThoseOfEveryStridethPointInOrder) {
+  Random random(6);
+  const SE3 begin = random.Pose();
+  const SE3 end = Plus(begin, random.Tangent(0.3, 0.5));
+  const SegmentMotion motion(begin, end);
+  for (const int count : {0, 1, 4, 61}) {
+    const auto points = RandomSegment(&random, begin, end, count, 0.3);
+    for (const std::size_t stride : {1u, 3u, 100u}) {
+      std::size_t i = 0;
+      ForEachDistance(points, motion, stride, [&](const RegistrationPoint& point, double r) {
+        ASSERT_EQ(&point, &points.at(i));
+        EXPECT_NEAR(r, point.DistanceToPlane(motion.ToWorld(point.alpha, point.p_body_m)), 1e-12);
+        i += stride;
+      });
+      EXPECT_EQ(i, (points.size() + stride - 1) / stride * stride);
+    }
+  }
 }
 
 TEST(SegmentRegistration, AScanAtOneInstantOnlyConstrainsThatPose) {

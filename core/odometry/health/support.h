@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/odometry/window/window.h"
-#include "manifolds/se3_interpolation.h"
+#include "factors/plane_distances.h"
 
 namespace trajlo {
 
@@ -22,12 +22,10 @@ constexpr double kOnPlane_m = 0.2;
 template <typename F>
 void ForEachPoint(const Window& window, const Segment& segment, std::size_t stride, F f) {
   const auto k = static_cast<int>(&segment - window.segments.data());
-  const SegmentMotion motion(window.Pose(k), segment.T_world_end);
-  for (std::size_t i = 0; i < segment.points.size(); i += stride) {
-    const RegistrationPoint& point = segment.points[i];
-    const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
-    f(point, std::abs(point.DistanceToPlane(p_world)) < kOnPlane_m);
-  }
+  ForEachDistance(segment.points, SegmentMotion(window.Pose(k), segment.T_world_end), stride,
+                  [&](const RegistrationPoint& point, double distance_m) {
+                    f(point, std::abs(distance_m) < kOnPlane_m);
+                  });
 }
 
 /// Notices when the motion prior has carried the window for too long. Its uncertainty grows with

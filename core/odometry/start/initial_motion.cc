@@ -11,6 +11,7 @@
 
 #include "core/odometry/window/association.h"
 #include "core/scans/median.h"
+#include "factors/plane_distances.h"
 #include "factors/segment_linearizer.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -77,12 +78,11 @@ class Hypothesis {
   /// it, whatever the others say.
   double Agreement(const std::optional<Eigen::Vector3d>& direction = std::nullopt) const {
     int agreeing = 0;
-    const SegmentMotion motion(SE3(), T_end_);
-    for (const RegistrationPoint& point : points_with_plane_) {
-      if (direction && !IsFacing(point, *direction)) continue;
-      const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
-      agreeing += std::abs(point.DistanceToPlane(p_world)) < kAgreementM ? 1 : 0;
-    }
+    ForEachDistance(points_with_plane_, SegmentMotion(SE3(), T_end_), 1,
+                    [&](const RegistrationPoint& point, double distance_m) {
+                      if (direction && !IsFacing(point, *direction)) return;
+                      agreeing += std::abs(distance_m) < kAgreementM ? 1 : 0;
+                    });
     return agreeing / points_;
   }
 

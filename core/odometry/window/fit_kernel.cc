@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/scans/median.h"
-#include "manifolds/se3_interpolation.h"
+#include "factors/plane_distances.h"
 
 namespace trajlo {
 namespace {
@@ -26,13 +26,11 @@ std::vector<double> SampleDistances(const Window& window) {
   std::vector<double> sampled_m;
   for (int k = 0; k < window.size(); ++k) {
     const Segment& segment = window.segments[static_cast<std::size_t>(k)];
-    const SegmentMotion motion(window.Pose(k), segment.T_world_end);
-    const std::size_t stride = 1 + segment.points.size() / kAsked;
-    for (std::size_t i = 0; i < segment.points.size(); i += stride) {
-      const RegistrationPoint& point = segment.points[i];
-      const double distance_m = point.DistanceToPlane(motion.ToWorld(point.alpha, point.p_body_m));
-      sampled_m.push_back(std::sqrt(point.weight) * std::abs(distance_m));
-    }
+    ForEachDistance(segment.points, SegmentMotion(window.Pose(k), segment.T_world_end),
+                    1 + segment.points.size() / kAsked,
+                    [&](const RegistrationPoint& point, double distance_m) {
+                      sampled_m.push_back(std::sqrt(point.weight) * std::abs(distance_m));
+                    });
   }
   return sampled_m;
 }

@@ -78,6 +78,17 @@ TEST(OpenRecording, MergesLidarsByTheTimesOfRecordingWhereAllFoldersHaveThem) {
   EXPECT_THAT(lidars(), ElementsAre(0, 1, 0, 1, 0));
 }
 
+TEST(OpenRecording, WithOneThreadAScanIsReadWhenItIsAskedFor) {
+  const TempFolder temp;
+  SmallRoom(4).Write(temp / "a");
+  const auto recording = OpenRecording({temp / "a"}, {}, 1);
+  LidarScan scan;
+  ASSERT_TRUE(recording->Next(&scan));
+  std::filesystem::remove_all(temp / "a");
+  EXPECT_FALSE(recording->Next(&scan));
+  EXPECT_EQ(recording->report().scans_skipped, 3u);
+}
+
 TEST(LidarNames, AreTopicsOrFoldersInTheOrderOfTheIds) {
   const TempFolder temp;
   SmallRoom(1).Write(temp / "folder");
