@@ -10,7 +10,6 @@
 #include "apps/print_warnings.h"
 #include "apps/reading_progress.h"
 #include "core/export/run_result.h"
-#include "core/io/conversion/bag_copy.h"
 #include "core/io/conversion/extract_poses.h"
 #include "core/io/conversion/message_copy.h"
 #include "core/io/errors.h"
@@ -61,22 +60,30 @@ ExitCode WritePoses(const ConvertRequest& request) {
   return partial ? ExitCode::kPartialInput : ExitCode::kOk;
 }
 
-ExitCode CopyRos1Bags(const ConvertRequest& request, const std::atomic<bool>& stop) {
-  BagCopyOptions options;
+/// Calls `copy(options)` with what is wanted, and shows how far it is.
+template <typename Copy>
+MessageCopyResult CopyWanted(const ConvertRequest& request, const std::atomic<bool>& stop,
+                             Copy&& copy) {
+  MessageCopyOptions options;
   options.topics = request.recording.topics;
   options.start_ns = ToNs(request.recording.start_s);
   options.duration_ns = ToNs(request.recording.duration_s);
+  ReadingProgress progress(stderr, request.quiet);
+  options.on_progress = [&](std::size_t done, std::size_t all) { progress.Update(done, all); };
+  options.should_stop = [&] { return stop.load(); };
+  return copy(options);
+}
+
+ExitCode CopyRos1Bags(const ConvertRequest& request, const std::atomic<bool>& stop) {
+  Ros1BagOptions bag;
   if (!request.compression.empty()) {
-    options.output.compression = *ros1::FindCompression(request.compression);
+    bag.compression = *ros1::FindCompression(request.compression);
   }
-  options.output.if_exists = request.WhatIfExists();
-  BagCopyResult copied;
-  {
-    ReadingProgress progress(stderr, request.quiet);
-    options.on_progress = [&](std::size_t done, std::size_t all) { progress.Update(done, all); };
-    options.should_stop = [&] { return stop.load(); };
-    copied = CopyBags(Ros1BagsOf(request.input), request.output, options);
-  }
+  bag.if_exists = request.WhatIfExists();
+  const MessageCopyResult copied =
+      CopyWanted(request, stop, [&](const MessageCopyOptions& options) {
+        return CopyBags(Ros1BagsOf(request.input), request.output, options, bag);
+      });
   PrintWarnings(kCommand, copied.report.warnings);
   if (!request.quiet) {
     std::printf("%zu messages copied as they are to %s\n", copied.messages, request.output.c_str());
@@ -86,18 +93,11 @@ ExitCode CopyRos1Bags(const ConvertRequest& request, const std::atomic<bool>& st
 
 /// From one kind of bag to another.
 ExitCode CopyMessagesOver(const ConvertRequest& request, const std::atomic<bool>& stop) {
-  MessageCopyOptions options;
-  options.topics = request.recording.topics;
-  options.start_ns = ToNs(request.recording.start_s);
-  options.duration_ns = ToNs(request.recording.duration_s);
   const auto bag = OpenBag(request.output, request.compression, request.WhatIfExists());
-  MessageCopyResult copied;
-  {
-    ReadingProgress progress(stderr, request.quiet);
-    options.on_progress = [&](std::size_t done, std::size_t all) { progress.Update(done, all); };
-    options.should_stop = [&] { return stop.load(); };
-    copied = CopyMessages(request.input, options, bag.get());
-  }
+  const MessageCopyResult copied =
+      CopyWanted(request, stop, [&](const MessageCopyOptions& options) {
+        return CopyMessages(request.input, options, bag.get());
+      });
   PrintWarnings(kCommand, copied.report.warnings);
   for (const auto& [topic, reason] : copied.left_out) {
     std::fprintf(stderr, "trajlo_convert: %s is left out: %s\n", topic.c_str(), reason.c_str());

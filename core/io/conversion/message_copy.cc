@@ -4,41 +4,88 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/io/errors.h"
 #include "core/io/messages/message_schema.h"
 #include "core/io/messages/report_merger.h"
 #include "core/io/recording/open_clouds.h"
+#include "core/io/ros1/ros1_bag_reader.h"
 
 namespace trajlo {
 namespace {
 
-using Readers = std::vector<std::unique_ptr<RawMessageReader>>;
+constexpr int kAllCores = 0;
 
-Readers OpenAll(const std::filesystem::path& path) {
-  constexpr int kAllCores = 0;
-  std::vector<std::filesystem::path> parts = Ros1BagsOf(path);
-  if (parts.empty()) parts.push_back(path);
-  Readers readers;
-  for (const auto& part : parts) readers.push_back(OpenMessages(part, kAllCores));
-  return readers;
+using Names = std::vector<std::string>;
+/// Names and types, each name once.
+using NamedTypes = std::vector<std::pair<std::string, std::string>>;
+
+template <typename Readers>
+NamedTypes TopicsOf(const Readers& readers) {
+  NamedTypes topics;
+  for (const auto& reader : readers) {
+    for (const Topic& topic : reader->topics()) {
+      const bool known = std::any_of(topics.begin(), topics.end(),
+                                     [&](const auto& one) { return one.first == topic.name; });
+      if (!known) topics.emplace_back(topic.name, topic.type);
+    }
+  }
+  return topics;
 }
 
-/// Throws if a wanted topic is in none of the bags.
-void CheckTopics(const std::filesystem::path& path, const Readers& readers,
-                 const std::vector<std::string>& wanted) {
-  std::map<std::string, std::string> types;
-  for (const auto& reader : readers) {
-    for (const Topic& topic : reader->topics()) types.emplace(topic.name, topic.type);
-  }
+/// Throws if a wanted topic is not there.
+void CheckTopics(const std::filesystem::path& path, const NamedTypes& topics, const Names& wanted) {
   std::string there;
-  for (const auto& [name, type] : types) there += "\n    " + name + " (" + type + ")";
+  for (const auto& [name, type] : topics) there += "\n    " + name + " (" + type + ")";
   for (const std::string& name : wanted) {
-    if (types.count(name) > 0) continue;
+    const bool is_there = std::any_of(topics.begin(), topics.end(),
+                                      [&](const auto& topic) { return topic.first == name; });
+    if (is_there) continue;
     throw InputError(path, "no topic '" + name + "'; there are:" + there,
                      "Set --topics to some of these.");
   }
 }
+
+/// Walks through bags that follow each other, to what is wanted of them.
+class Walk {
+ public:
+  template <typename Readers>
+  Walk(const MessageCopyOptions& options, const Readers& readers) : options_(options) {
+    for (const auto& reader : readers) {
+      for (const Topic& topic : reader->topics()) listed_ += topic.messages;
+    }
+  }
+
+  /// Calls `copy(topic, message)`. Nothing behind the excerpt belongs to it if messages are
+  /// `in_order`: the rest of the bag is not read then.
+  template <typename Copy>
+  void Through(RawMessageReader* reader, bool in_order, MessageReport* report, Copy&& copy) {
+    RawMessage message;
+    while (reader->Next(&message)) {
+      if (options_.should_stop && options_.should_stop()) break;
+      if (++read_ == 1) first_ns_ = message.recorded_ns;
+      if (options_.on_progress) options_.on_progress(read_, listed_);
+      const std::int64_t since_start_ns = message.recorded_ns - first_ns_ - options_.start_ns;
+      const bool is_behind = options_.duration_ns > 0 && since_start_ns >= options_.duration_ns;
+      if (is_behind && in_order) break;
+      if (since_start_ns < 0 || is_behind) continue;
+      const Topic& topic = reader->topics()[message.topic];
+      if (IsWanted(topic.name)) copy(topic, message);
+    }
+    ReportMerger().Take(reader->report(), report);
+  }
+
+ private:
+  bool IsWanted(const std::string& topic) const {
+    const Names& wanted = options_.topics;
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), topic) != wanted.end();
+  }
+
+  const MessageCopyOptions& options_;
+  std::size_t listed_ = 0, read_ = 0;
+  std::int64_t first_ns_ = 0;
+};
 
 /// How the messages of a topic get into the other bag.
 struct Route {
@@ -76,83 +123,90 @@ Route MakeRoute(const Topic& topic, Encoding to) {
   return route;
 }
 
-class Copier {
+/// Writes the messages of one bag into another of any kind.
+class Router {
  public:
-  Copier(const MessageCopyOptions& options, std::size_t listed, BagWriter* writer)
-      : options_(options), listed_(listed), writer_(writer) {}
+  Router(BagWriter* writer, MessageCopyResult* result) : writer_(writer), result_(result) {}
 
-  void Copy(RawMessageReader* reader) {
-    routes_.clear();
-    RawMessage message;
-    while (reader->Next(&message)) {
-      if (options_.should_stop && options_.should_stop()) break;
-      if (options_.on_progress) options_.on_progress(++read_, listed_);
-      if (!first_ns_) first_ns_ = message.recorded_ns;
-      const std::int64_t since_start_ns = message.recorded_ns - *first_ns_ - options_.start_ns;
-      if (since_start_ns < 0) continue;
-      const bool is_behind = options_.duration_ns > 0 && since_start_ns >= options_.duration_ns;
-      if (is_behind) continue;  // Files of ROS 2 need not be in the order of time.
-      CopyOne(reader->topics()[message.topic], message);
+  void Copy(const Topic& topic, const RawMessage& message) {
+    auto known = routes_.find(message.topic);
+    if (known == routes_.end()) {
+      known = routes_.emplace(message.topic, MakeRoute(topic, writer_->encoding())).first;
     }
-    ReportMerger().Take(reader->report(), &result_.report);
-  }
-
-  const MessageCopyResult& result() const { return result_; }
-
- private:
-  void CopyOne(const Topic& topic, const RawMessage& message) {
-    const std::vector<std::string>& wanted = options_.topics;
-    const bool is_wanted =
-        wanted.empty() || std::find(wanted.begin(), wanted.end(), topic.name) != wanted.end();
-    if (!is_wanted) return;
-    auto route = routes_.find(message.topic);
-    if (route == routes_.end()) {
-      route = routes_.emplace(message.topic, MakeRoute(topic, writer_->encoding())).first;
-    }
-    if (!route->second.obstacle.empty()) {
-      result_.left_out[topic.name] = route->second.obstacle;
+    const Route& route = known->second;
+    if (!route.obstacle.empty()) {
+      result_->left_out[topic.name] = route.obstacle;
       return;
     }
-    if (!route->second.schema) {
-      writer_->Write(route->second.topic, message.recorded_ns, message.bytes.view());
+    if (!route.schema) {
+      writer_->Write(route.topic, message.recorded_ns, message.bytes.view());
     } else {
       const auto rewritten =
-          route->second.schema->Rewrite(message.bytes.view(), topic.encoding, writer_->encoding());
+          route.schema->Rewrite(message.bytes.view(), topic.encoding, writer_->encoding());
       if (!rewritten) {
-        result_.report.damaged = true;
-        result_.left_out[topic.name] = "messages that do not agree with " + topic.type;
+        result_->report.damaged = true;
+        result_->left_out[topic.name] = "messages that do not agree with " + topic.type;
         return;
       }
-      writer_->Write(route->second.topic, message.recorded_ns, *rewritten);
+      writer_->Write(route.topic, message.recorded_ns, *rewritten);
     }
-    ++result_.messages;
+    ++result_->messages;
   }
 
-  const MessageCopyOptions& options_;
-  std::size_t listed_;
+ private:
   BagWriter* writer_;
-  MessageCopyResult result_;
+  MessageCopyResult* result_;
   std::map<std::size_t, Route> routes_;
-  std::optional<std::int64_t> first_ns_;
-  std::size_t read_ = 0;
 };
 
 }  // namespace
 
-MessageCopyResult CopyMessages(const std::filesystem::path& path, const MessageCopyOptions& options,
-                               BagWriter* writer) {
-  Readers readers = OpenAll(path);
-  CheckTopics(path, readers, options.topics);
-  std::size_t listed = 0;
-  for (const auto& reader : readers) {
-    for (const Topic& topic : reader->topics()) listed += topic.messages;
-  }
-  Copier copier(options, listed, writer);
+MessageCopyResult CopyBags(const std::vector<std::filesystem::path>& bags,
+                           const std::filesystem::path& output, const MessageCopyOptions& options,
+                           const Ros1BagOptions& bag) {
+  std::vector<std::unique_ptr<Ros1BagReader>> readers;
+  for (const auto& path : bags) readers.push_back(std::make_unique<Ros1BagReader>(path, kAllCores));
+  CheckTopics(bags.front(), TopicsOf(readers), options.topics);
+  Ros1BagWriter writer(output, bag);
+  MessageCopyResult result;
+  Walk walk(options, readers);
   for (auto& reader : readers) {
-    copier.Copy(reader.get());
+    constexpr bool kInOrder = true;
+    walk.Through(reader.get(), kInOrder, &result.report,
+                 [&](const Topic&, const RawMessage& message) {
+                   writer.Write(reader->connection(), message.recorded_ns, message.bytes.view());
+                   ++result.messages;
+                 });
     reader.reset();
   }
-  return copier.result();
+  if (result.messages == 0) {
+    throw InputError(bags.front(), "no message lies in what is to be copied",
+                     "Check --topics, --start_s and --duration_s with trajlo_info.");
+  }
+  writer.Close();
+  return result;
+}
+
+MessageCopyResult CopyMessages(const std::filesystem::path& path, const MessageCopyOptions& options,
+                               BagWriter* writer) {
+  std::vector<std::filesystem::path> parts = Ros1BagsOf(path);
+  if (parts.empty()) parts.push_back(path);
+  std::vector<std::unique_ptr<RawMessageReader>> readers;
+  for (const auto& part : parts) readers.push_back(OpenMessages(part, kAllCores));
+  NamedTypes topics = TopicsOf(readers);
+  std::sort(topics.begin(), topics.end());
+  CheckTopics(path, topics, options.topics);
+  MessageCopyResult result;
+  Walk walk(options, readers);
+  for (auto& reader : readers) {
+    Router router(writer, &result);
+    constexpr bool kInOrder = false;  // Files of ROS 2 need not be in the order of time.
+    walk.Through(
+        reader.get(), kInOrder, &result.report,
+        [&](const Topic& topic, const RawMessage& message) { router.Copy(topic, message); });
+    reader.reset();
+  }
+  return result;
 }
 
 }  // namespace trajlo

@@ -11,6 +11,7 @@
 
 #include "core/io/messages/bag_writer.h"
 #include "core/io/messages/raw_message.h"
+#include "core/io/ros1/ros1_bag_writer.h"
 
 namespace trajlo {
 
@@ -32,6 +33,14 @@ struct MessageCopyResult {
   std::map<std::string, std::string> left_out;
   MessageReport report;
 };
+
+/// Copies messages of ROS 1 bags that follow each other into one, byte by byte, with their times of
+/// recording and with all that is known of their publishers (types' definitions, callerid,
+/// latching). A damaged bag gives all that can be read, and the copy has an index again. Throws
+/// InputError and OutputError.
+MessageCopyResult CopyBags(const std::vector<std::filesystem::path>& bags,
+                           const std::filesystem::path& output, const MessageCopyOptions& options,
+                           const Ros1BagOptions& bag = {});
 
 /// Copies the messages of a bag of any kind into one of any kind, with their times of recording,
 /// all fields, and what is known of their interfaces. Between ROS 1 and ROS 2 they are written anew

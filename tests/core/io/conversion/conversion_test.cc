@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "core/io/conversion/bag_copy.h"
 #include "core/io/conversion/extract_poses.h"
+#include "core/io/conversion/message_copy.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/errors.h"
@@ -147,9 +147,9 @@ std::vector<ros1::Connection> PublishersOf(const std::filesystem::path& path) {
 TEST(CopyBags, CopiesEveryByteAndTheDefinitions) {
   const TempFolder folder;
   WriteBag(folder / "a.bag", CloudLayout::kOuster, false);
-  BagCopyOptions options;
-  options.output.compression = BagCompression::kLz4;
-  EXPECT_EQ(CopyBags({folder / "a.bag"}, folder / "b.bag", options).messages, 16u);
+  Ros1BagOptions lz4;
+  lz4.compression = BagCompression::kLz4;
+  EXPECT_EQ(CopyBags({folder / "a.bag"}, folder / "b.bag", {}, lz4).messages, 16u);
   EXPECT_EQ(MessagesOf(folder / "b.bag"), MessagesOf(folder / "a.bag"));
   const std::vector<ros1::Connection> publishers = PublishersOf(folder / "b.bag");
   ASSERT_EQ(publishers.size(), 2u);
@@ -199,7 +199,7 @@ TEST(CopyBags, PublishersKeepTheirNamesAndAreLatchedAsTheyWere) {
 TEST(CopyBags, TakesATopicAndATime) {
   const TempFolder folder;
   WriteBag(folder / "a.bag", CloudLayout::kOuster, false);
-  BagCopyOptions options;
+  MessageCopyOptions options;
   options.topics = {"/truth"};
   options.start_ns = 2 * kPeriodNs;
   options.duration_ns = 3 * kPeriodNs;
@@ -221,7 +221,7 @@ TEST(CopyBags, MendsABagWithoutItsEnd) {
   WriteBag(folder / "whole.bag", CloudLayout::kOuster, false, small_chunks);
   const std::string bytes = ReadFile(folder / "whole.bag");
   WriteFile(folder / "cut.bag", bytes.substr(0, bytes.size() / 2));
-  const BagCopyResult copied = CopyBags({folder / "cut.bag"}, folder / "mended.bag", {});
+  const MessageCopyResult copied = CopyBags({folder / "cut.bag"}, folder / "mended.bag", {});
   EXPECT_TRUE(copied.report.damaged);
   EXPECT_GT(copied.messages, 3u);
   Ros1BagReader mended(folder / "mended.bag");
