@@ -8,7 +8,6 @@
 #include "apps/convert/export_result.h"
 #include "apps/convert/protect_input.h"
 #include "apps/print_warnings.h"
-#include "apps/reading_progress.h"
 #include "core/export/run_result.h"
 #include "core/io/conversion/extract_poses.h"
 #include "core/io/conversion/message_copy.h"
@@ -16,6 +15,7 @@
 #include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_writer.h"
+#include "core/report/progress_bar.h"
 
 namespace trajlo {
 namespace {
@@ -68,7 +68,7 @@ MessageCopyResult CopyWanted(const ConvertRequest& request, const std::atomic<bo
   options.topics = request.recording.topics;
   options.start_ns = ToNs(request.recording.start_s);
   options.duration_ns = ToNs(request.recording.duration_s);
-  ReadingProgress progress(stderr, request.quiet);
+  ProgressBar progress(stderr, request.quiet);
   options.on_progress = [&](std::size_t done, std::size_t all) { progress.Update(done, all); };
   options.should_stop = [&] { return stop.load(); };
   return copy(options);

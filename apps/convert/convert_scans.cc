@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/reading_progress.h"
 #include "core/io/conversion/open_bag.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/errors.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
+#include "core/report/progress_bar.h"
 
 namespace trajlo {
 namespace {
@@ -152,7 +152,7 @@ ConvertedScans ConvertScans(const ConvertRequest& request, const std::atomic<boo
   ConvertedScans converted;
   converted.lidars = topics.size();
   {
-    ReadingProgress progress(stderr, request.quiet);
+    ProgressBar progress(stderr, request.quiet);
     RecordTimes record_times;
     LidarScan scan;
     while (!stop && recording->Next(&scan)) {

@@ -11,7 +11,6 @@
 
 #include "apps/convert/protect_input.h"
 #include "apps/print_warnings.h"
-#include "apps/reading_progress.h"
 #include "core/export/map_file.h"
 #include "core/export/placed_scan_folder.h"
 #include "core/export/replay.h"
@@ -24,6 +23,7 @@
 #include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_writer.h"
+#include "core/report/progress_bar.h"
 #include "core/report/result_folder.h"
 
 namespace trajlo {
@@ -91,7 +91,7 @@ class Replay {
         recording_(OpenRecording(inputs, result.config.input, kAllCores)) {}
 
   void Run(const std::atomic<bool>& stop, const std::function<void(const PlacedScan&)>& visit) {
-    ReadingProgress progress(stderr, request_.quiet);
+    ProgressBar progress(stderr, request_.quiet);
     counts_ = ReplayRecording(result_, recording_.get(), [&](const PlacedScan& scan) {
       visit(scan);
       ++scans_;

@@ -6,9 +6,9 @@
 
 #include "apps/info/info_json.h"
 #include "apps/info/info_table.h"
-#include "apps/reading_progress.h"
 #include "core/io/errors.h"
 #include "core/io/inspection/inspect_recording.h"
+#include "core/report/progress_bar.h"
 
 namespace trajlo {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::size_t kQuickMessages = 20;
 
 RecordingInspection Inspect(const std::string& path, const InfoRequest& request,
                             const std::atomic<bool>& stop) {
-  ReadingProgress progress(stderr, request.quiet);
+  ProgressBar progress(stderr, request.quiet);
   InspectionOptions options;
   options.clouds.packets.velodyne_model = request.velodyne_model;
   options.clouds.threads = 0;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "core/io/format_text.h"
+
 namespace trajlo {
 namespace {
 
@@ -17,19 +19,19 @@ int Columns(std::FILE* stream) {
   return 80;
 }
 
+/// More than are listed are harmless.
+double Share(std::size_t done, std::size_t all) {
+  return all > 0 ? std::min(1.0, static_cast<double>(done) / static_cast<double>(all)) : 0.0;
+}
+
 }  // namespace
 
 std::string ProgressLine(const Progress& progress, int columns) {
-  const double share =
-      progress.scans > 0
-          ? std::min(1.0, static_cast<double>(progress.scan) / static_cast<double>(progress.scans))
-          : 0.0;
+  const double share = Share(progress.scan, progress.scans);
   const double speed = progress.wall_s > 0.0 ? progress.data_s / progress.wall_s : 0.0;
-  char numbers[160];
-  std::snprintf(numbers, sizeof(numbers),
-                "%3.0f %%  scan %zu/%zu  %.1f x real time  inliers %.0f %%", 100.0 * share,
-                progress.scan, progress.scans, speed, 100.0 * progress.inlier_share);
-  std::string line = numbers;
+  std::string line =
+      FormatText("%3.0f %%  scan %zu/%zu  %.1f x real time  inliers %.0f %%", 100.0 * share,
+                 progress.scan, progress.scans, speed, 100.0 * progress.inlier_share);
   // The bar takes what the numbers leave; the last column stays free, or the line would wrap.
   const int width = std::min(40, columns - 1 - static_cast<int>(line.size()) - 3);
   if (width >= 5) {
@@ -42,6 +44,10 @@ std::string ProgressLine(const Progress& progress, int columns) {
   return line.substr(0, static_cast<std::size_t>(std::max(columns - 1, 0)));
 }
 
+std::string ReadingLine(std::size_t done, std::size_t all) {
+  return FormatText("reading %3.0f %% (%zu of %zu messages)", 100.0 * Share(done, all), done, all);
+}
+
 ProgressBar::ProgressBar(std::FILE* stream, bool quiet)
     : stream_(!quiet && isatty(fileno(stream)) != 0 ? stream : nullptr) {}
 
@@ -51,13 +57,25 @@ ProgressBar::~ProgressBar() {
   std::fflush(stream_);
 }
 
-void ProgressBar::Update(const Progress& progress) {
-  if (stream_ == nullptr) return;
+bool ProgressBar::IsDue() {
+  if (stream_ == nullptr) return false;
   const auto now = std::chrono::steady_clock::now();
-  if (now - drawn_ < kRedraw) return;
+  if (now - drawn_ < kRedraw) return false;
   drawn_ = now;
-  std::fprintf(stream_, "\r%s\x1b[K", ProgressLine(progress, Columns(stream_)).c_str());
+  return true;
+}
+
+void ProgressBar::Draw(const std::string& line) {
+  std::fprintf(stream_, "\r%s\x1b[K", line.c_str());
   std::fflush(stream_);
+}
+
+void ProgressBar::Update(const Progress& progress) {
+  if (IsDue()) Draw(ProgressLine(progress, Columns(stream_)));
+}
+
+void ProgressBar::Update(std::size_t done, std::size_t all) {
+  if (IsDue()) Draw(ReadingLine(done, all));
 }
 
 }  // namespace trajlo

@@ -19,6 +19,9 @@ struct Progress {
 /// "[=====>    ]  45 %  scan 67/150  3.2 x real time  inliers 82 %", within `columns`.
 std::string ProgressLine(const Progress& progress, int columns);
 
+/// "reading  45 % (67 of 150 messages)".
+std::string ReadingLine(std::size_t done, std::size_t all);
+
 /// One line that is drawn over and over, at most ten times a second, if `stream` is a terminal and
 /// nothing at all otherwise.
 class ProgressBar {
@@ -30,8 +33,14 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void Update(const Progress& progress);
+  /// For messages that are read and not processed.
+  void Update(std::size_t done, std::size_t all);
 
  private:
+  /// True at most ten times a second.
+  bool IsDue();
+  void Draw(const std::string& line);
+
   std::FILE* stream_;  ///< Null if nothing is drawn.
   std::chrono::steady_clock::time_point drawn_{};
 };

@@ -32,6 +32,11 @@ TEST(ProgressLine, NothingKnownAndMoreScansThanListedAreHarmless) {
   EXPECT_THAT(ProgressLine({5, 4, 0.0, 0.0, 0.0}, 100), HasSubstr("100 %"));
 }
 
+TEST(ReadingLine, ShowsPercentAndMessages) {
+  EXPECT_EQ(ReadingLine(67, 150), "reading  45 % (67 of 150 messages)");
+  EXPECT_EQ(ReadingLine(0, 0), "reading   0 % (0 of 0 messages)");
+}
+
 /// All that can be read; a terminal hands it on after a moment.
 std::string ReadAll(int fd) {
   std::string text;
