@@ -6,6 +6,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
+#include "core/io/point_cloud_writer.h"
 #include "core/io/point_table.h"
 
 namespace trajlo {
@@ -20,14 +21,6 @@ Row RowOf(const Surfel& surfel) {
   const Eigen::Vector3f p = surfel.p_world_m.cast<float>();
   const Eigen::Vector3f& n = surfel.normal;
   return {p.x(), p.y(), p.z(), surfel.intensity, n.x(), n.y(), n.z(), surfel.curvature};
-}
-
-std::string PcdHeader(std::size_t count) {
-  const std::string n = std::to_string(count);
-  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
-         "FIELDS x y z intensity normal_x normal_y normal_z curvature rgb\n"
-         "SIZE 4 4 4 4 4 4 4 4 4\nTYPE F F F F F F F F U\nCOUNT 1 1 1 1 1 1 1 1 1\nWIDTH " +
-         n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
 }
 
 std::string PlyHeader(std::size_t count) {
@@ -77,7 +70,9 @@ void WriteMapFile(const std::filesystem::path& path, const std::vector<Surfel>& 
     throw OutputError(path, "a map is written as .pcd or .ply");
   }
   AtomicFile file(path, if_exists);
-  std::string block = is_pcd ? PcdHeader(surfels.size()) : PlyHeader(surfels.size());
+  std::string block = is_pcd ? PcdHeader("x y z intensity normal_x normal_y normal_z curvature rgb",
+                                         "FFFFFFFFU", surfels.size())
+                             : PlyHeader(surfels.size());
   for (std::size_t i = 0; i < surfels.size(); ++i) {
     const Row row = RowOf(surfels[i]);
     block.append(reinterpret_cast<const char*>(&row), sizeof(row));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/placed_scan_folder.h"
 
-#include <cstdio>
 #include <utility>
 
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/point_cloud_writer.h"
 #include "core/io/stamp_text.h"
 
@@ -23,15 +23,13 @@ PlacedScanFolder::PlacedScanFolder(const std::filesystem::path& folder, std::str
 }
 
 void PlacedScanFolder::Write(const PlacedScan& scan) {
-  char name[32];
-  std::snprintf(name, sizeof(name), "%06zu", scans_++);
   const SE3 T_frame_world = FrameFromWorld(frame_, scan.T_world_body);
   std::vector<CloudPoint> points;
   points.reserve(scan.points_world_m.size());
   for (std::size_t i = 0; i < scan.points_world_m.size(); ++i) {
     points.push_back({(T_frame_world * scan.points_world_m[i]).cast<float>(), scan.intensities[i]});
   }
-  WritePointCloud(folder_ / "scans" / (name + extension_), points);
+  WritePointCloud(folder_ / "scans" / (FormatText("%06zu", scans_++) + extension_), points);
   kitti_->Append(scan.T_world_body);
   tum_->Append(scan.t_ns, scan.T_world_body);
   stamps_ += FormatSeconds(scan.t_ns) + "\n";

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/io/point_cloud_writer.h"
 
-#include <string>
-
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
 #include "core/io/point_table.h"
@@ -11,14 +9,6 @@ namespace trajlo {
 namespace {
 
 static_assert(sizeof(CloudPoint) == 4 * sizeof(float), "points are written as they lie in memory");
-
-std::string PcdHeader(std::size_t count, bool intensity) {
-  const std::string n = std::to_string(count);
-  return std::string("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n") +
-         (intensity ? "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
-                    : "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n") +
-         "WIDTH " + n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
-}
 
 std::string PlyHeader(std::size_t count, bool intensity) {
   return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
@@ -40,8 +30,12 @@ void WritePointCloud(const std::filesystem::path& path, const std::vector<CloudP
     throw OutputError(path, "a point cloud is written as .pcd or .ply");
   }
   AtomicFile file(path, if_exists);
-  file.Write(extension == ".pcd" ? PcdHeader(points.size(), intensity)
-                                 : PlyHeader(points.size(), intensity));
+  if (extension == ".ply") {
+    file.Write(PlyHeader(points.size(), intensity));
+  } else {
+    file.Write(intensity ? PcdHeader("x y z intensity", "FFFF", points.size())
+                         : PcdHeader("x y z", "FFF", points.size()));
+  }
   if (intensity) {
     file.Write(BytesOf(points.data(), points.size()));
   } else {
@@ -55,6 +49,19 @@ void WritePointCloud(const std::filesystem::path& path, const std::vector<CloudP
     file.Write(block);
   }
   file.Commit();
+}
+
+std::string PcdHeader(const std::string& fields, std::string_view types, std::size_t count) {
+  std::string size_words, type_words, count_words;
+  for (const char type : types) {
+    size_words += " 4";
+    type_words += {' ', type};
+    count_words += " 1";
+  }
+  const std::string n = std::to_string(count);
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS " + fields + "\nSIZE" +
+         size_words + "\nTYPE" + type_words + "\nCOUNT" + count_words + "\nWIDTH " + n +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
 }
 
 }  // namespace trajlo

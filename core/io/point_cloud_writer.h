@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/output_file.h"
@@ -24,5 +26,9 @@ enum class CloudFields { kXyz, kXyzIntensity };
 void WritePointCloud(const std::filesystem::path& path, const std::vector<CloudPoint>& points,
                      CloudFields fields = CloudFields::kXyzIntensity,
                      IfExists if_exists = IfExists::kFail);
+
+/// The header of a PCD file of binary values of four bytes: "x y z t" and the format's letters for
+/// their types, "FFFU".
+std::string PcdHeader(const std::string& fields, std::string_view types, std::size_t count);
 
 }  // namespace trajlo

@@ -134,4 +134,10 @@ std::string FormatSeconds(std::int64_t t_ns) {
          std::string(9 - fraction.size(), '0') + fraction;
 }
 
+std::string FormatStampsFile(const std::vector<std::int64_t>& stamps_ns) {
+  std::string text;
+  for (const std::int64_t t_ns : stamps_ns) text += FormatSeconds(t_ns) + "\n";
+  return text;
+}
+
 }  // namespace trajlo

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace trajlo {
 
@@ -27,5 +28,8 @@ std::optional<std::int64_t> UnitOfWholeStampNs(std::string_view digits);
 
 /// Prints nanoseconds as seconds with nine decimals, exactly: "1317042000.103499889".
 std::string FormatSeconds(std::int64_t t_ns);
+
+/// A stamp a line, as ReadStampsFile() takes them.
+std::string FormatStampsFile(const std::vector<std::int64_t>& stamps_ns);
 
 }  // namespace trajlo

@@ -2,11 +2,12 @@
 #include "core/simulation/recording_writer.h"
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
+#include "core/io/format_text.h"
 #include "core/io/output_file.h"
+#include "core/io/point_cloud_writer.h"
 #include "core/io/stamp_text.h"
 #include "core/simulation/scenario_yaml.h"
 #include "core/simulation/scene_picture.h"
@@ -33,19 +34,8 @@ void WriteFile(const fs::path& path, const std::string& head, const std::vector<
   file.Close();
 }
 
-std::string NumberedName(std::size_t number, const char* extension) {
-  char name[32];
-  std::snprintf(name, sizeof(name), "%06zu.%s", number, extension);
-  return name;
-}
-
 void WritePcd(const fs::path& path, const SimulatedScan& simulated) {
   const std::vector<LidarPoint>& points = simulated.scan.points;
-  const std::string count = std::to_string(points.size());
-  const std::string header =
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity time\n"
-      "SIZE 4 4 4 4 4\nTYPE F F F F F\nCOUNT 1 1 1 1 1\nWIDTH " +
-      count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
   std::vector<float> data;
   data.reserve(5 * points.size());
   for (const LidarPoint& p : points) {
@@ -53,7 +43,7 @@ void WritePcd(const fs::path& path, const SimulatedScan& simulated) {
     data.push_back(
         static_cast<float>(1e-9 * static_cast<double>(p.t_ns - simulated.sweep_start_ns)));
   }
-  WriteFile(path, header, data);
+  WriteFile(path, PcdHeader("x y z intensity time", "FFFFF", points.size()), data);
 }
 
 void WriteKittiBin(const fs::path& path, const LidarScan& scan) {
@@ -67,11 +57,8 @@ void WriteKittiBin(const fs::path& path, const LidarScan& scan) {
 
 /// With more decimals of the rotation than TumWriter: it is the truth.
 std::string TumLine(std::int64_t t_ns, const SE3& T) {
-  char text[256];
-  std::snprintf(text, sizeof(text), "%s %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n",
-                FormatSeconds(t_ns).c_str(), T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(),
-                T.q.w());
-  return text;
+  return FormatText("%s %.9f %.9f %.9f %.12f %.12f %.12f %.12f\n", FormatSeconds(t_ns).c_str(),
+                    T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w());
 }
 
 std::string KittiLine(const SE3& T) {
@@ -79,18 +66,11 @@ std::string KittiLine(const SE3& T) {
   std::string line;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
-      char text[40];
-      std::snprintf(text, sizeof(text), "%.12g", column < 3 ? R(row, column) : T.t[row]);
-      line += (line.empty() ? "" : " ") + std::string(text);
+      if (!line.empty()) line += ' ';
+      line += FormatText("%.12g", column < 3 ? R(row, column) : T.t[row]);
     }
   }
   return line + "\n";
-}
-
-std::string Lines(const std::vector<std::int64_t>& times_ns) {
-  std::string text;
-  for (const std::int64_t t_ns : times_ns) text += FormatSeconds(t_ns) + "\n";
-  return text;
 }
 
 /// The LiDARs of a bag, in the order of the extrinsics.
@@ -133,9 +113,9 @@ void RecordingWriter::Write(const SimulatedScan& simulated) {
   Stream& stream = streams_.at(static_cast<std::size_t>(scan.lidar_id));
   const std::size_t number = stream.stamps_ns.size();
   if (scan.has_point_times) {
-    WritePcd(stream.directory / "scans" / NumberedName(number, "pcd"), simulated);
+    WritePcd(stream.directory / "scans" / FormatText("%06zu.pcd", number), simulated);
   } else {
-    WriteKittiBin(stream.directory / "velodyne" / NumberedName(number, "bin"), scan);
+    WriteKittiBin(stream.directory / "velodyne" / FormatText("%06zu.bin", number), scan);
   }
   stream.stamps_ns.push_back(scan.stamp_ns);
   stream.recorded_ns.push_back(simulated.RecordedNs());
@@ -162,9 +142,9 @@ void RecordingWriter::WriteStamps() const {
       WriteKittiTables(stream, static_cast<int>(id));
       continue;
     }
-    WriteFile(stream.directory / "timestamps.txt", Lines(stream.stamps_ns));
+    WriteFile(stream.directory / "timestamps.txt", FormatStampsFile(stream.stamps_ns));
     if (streams_.size() == 1) continue;
-    WriteFile(stream.directory / "record_times.txt", Lines(stream.recorded_ns));
+    WriteFile(stream.directory / "record_times.txt", FormatStampsFile(stream.recorded_ns));
   }
 }
 

@@ -2,13 +2,14 @@
 #include "core/io/conversion/pcd_folder_writer.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <utility>
 
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
+#include "core/io/point_cloud_writer.h"
 #include "core/io/stamp_text.h"
 
 namespace trajlo {
@@ -16,26 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Header(std::size_t count, bool has_times) {
-  const std::string n = std::to_string(count);
-  return std::string("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n") +
-         (has_times ? "FIELDS x y z intensity t\nSIZE 4 4 4 4 4\nTYPE F F F F U\nCOUNT 1 1 1 1 1\n"
-                    : "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n") +
-         "WIDTH " + n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
-}
-
 std::uint32_t OffsetNs(const fs::path& path, std::int64_t offset_ns) {
   if (offset_ns < 0 || offset_ns > std::numeric_limits<std::uint32_t>::max()) {
     throw OutputError(path, "a point " + std::to_string(offset_ns) +
                                 " ns after the start of its sweep does not fit into the file");
   }
   return static_cast<std::uint32_t>(offset_ns);
-}
-
-std::string Lines(const std::vector<std::int64_t>& times_ns) {
-  std::string text;
-  for (const std::int64_t t_ns : times_ns) text += FormatSeconds(t_ns) + "\n";
-  return text;
 }
 
 }  // namespace
@@ -88,13 +75,13 @@ PcdFolderWriter::PcdFolderWriter(fs::path folder) : folder_(std::move(folder)) {
 }
 
 void PcdFolderWriter::Write(const LidarScan& scan, std::optional<std::int64_t> recorded_ns) {
-  char name[32];
-  std::snprintf(name, sizeof(name), "%06zu.pcd", stamps_ns_.size());
-  const fs::path path = folder_ / "scans" / name;
+  const fs::path path = folder_ / "scans" / FormatText("%06zu.pcd", stamps_ns_.size());
   const std::int64_t start_ns = SweepStartOf(scan);
   stamps_ns_.push_back(start_ns);
   if (recorded_ns) recorded_ns_.push_back(*recorded_ns);
-  std::string bytes = Header(scan.points.size(), scan.has_point_times);
+  std::string bytes = scan.has_point_times
+                          ? PcdHeader("x y z intensity t", "FFFFU", scan.points.size())
+                          : PcdHeader("x y z intensity", "FFFF", scan.points.size());
   const std::size_t begin = bytes.size();
   const std::size_t step = scan.has_point_times ? 20 : 16;
   bytes.resize(begin + step * scan.points.size());
@@ -114,8 +101,9 @@ void PcdFolderWriter::Write(const LidarScan& scan, std::optional<std::int64_t> r
 }
 
 void PcdFolderWriter::Close() {
-  WriteTextFile(folder_ / "timestamps.txt", Lines(stamps_ns_));
-  if (!recorded_ns_.empty()) WriteTextFile(folder_ / "record_times.txt", Lines(recorded_ns_));
+  WriteTextFile(folder_ / "timestamps.txt", FormatStampsFile(stamps_ns_));
+  if (!recorded_ns_.empty())
+    WriteTextFile(folder_ / "record_times.txt", FormatStampsFile(recorded_ns_));
 }
 
 }  // namespace trajlo
