@@ -2,7 +2,6 @@
 #include "apps/evaluate/evaluation_csv.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "apps/evaluate/flag_values.h"
 #include "apps/evaluate/metric_columns.h"
@@ -65,7 +64,6 @@ std::string ErrorsCsv(const Evaluation& evaluation, bool has_stamps) {
   std::string csv =
       "t_s,x_m,y_m,z_m,qx,qy,qz,qw,x_true_m,y_true_m,z_true_m,translation_error_m,"
       "rotation_error_deg\n";
-  char text[2500];  // Positions of runs that exploded have hundreds of digits.
   for (std::size_t i = 0; i < evaluation.pairs.size(); ++i) {
     const PosePair& pair = evaluation.pairs[i];
     const Eigen::Vector3d p = pair.estimate.translation();
@@ -73,10 +71,9 @@ std::string ErrorsCsv(const Evaluation& evaluation, bool has_stamps) {
     const Eigen::Vector3d truth = pair.truth.translation();
     csv += has_stamps ? FormatSeconds(pair.t_ns) : std::to_string(pair.t_ns);
     // Micrometres: coordinates may be those of a map projection, with seven digits in front.
-    std::snprintf(text, sizeof(text), ",%.6f,%.6f,%.6f,%.9f,%.9f,%.9f,%.9f,%.6f,%.6f,%.6f,%.9g,",
-                  p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w(), truth.x(), truth.y(), truth.z(),
-                  evaluation.errors.translation_m[i]);
-    csv += text;
+    csv += FormatText(",%.6f,%.6f,%.6f,%.9f,%.9f,%.9f,%.9f,%.6f,%.6f,%.6f,%.9g,", p.x(), p.y(),
+                      p.z(), q.x(), q.y(), q.z(), q.w(), truth.x(), truth.y(), truth.z(),
+                      evaluation.errors.translation_m[i]);
     if (evaluation.has_orientation) csv += Number(evaluation.errors.rotation_deg[i]);
     csv += "\n";
   }

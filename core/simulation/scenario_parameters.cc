@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include <type_traits>
 
 #include "core/config/edit_distance.h"
+#include "core/io/format_text.h"
 #include "core/simulation/scenes/scene_builder.h"
 
 namespace trajlo::simulation {
@@ -49,10 +49,10 @@ std::vector<Parameter> LidarParameters(const std::string& prefix, LidarConfig* l
 
 /// The shortest text that reads back as the same double.
 std::string ShortestText(double value) {
-  char text[40];
+  std::string text;
   for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof(text), "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value) break;
+    text = FormatText("%.*g", digits, value);
+    if (std::strtod(text.c_str(), nullptr) == value) break;
   }
   return text;
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/simulation/scenario_yaml.h"
 
-#include <cstdio>
-
+#include "core/io/format_text.h"
 #include "core/simulation/scenario_parameters.h"
 
 namespace trajlo::simulation {
@@ -14,9 +13,7 @@ std::string MatrixText(const SE3& T) {
   std::string text = "[";
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
-      char number[40];
-      std::snprintf(number, sizeof(number), "%.12g, ", column < 3 ? R(row, column) : T.t[row]);
-      text += number;
+      text += FormatText("%.12g, ", column < 3 ? R(row, column) : T.t[row]);
     }
   }
   return text + "0, 0, 0, 1]";
@@ -68,12 +65,10 @@ std::string RigYaml(const Scenario& scenario) {
                      ", for trajlo_run --config=\nsensor:\n  T_body_lidar:\n";
   for (const LidarConfig& lidar : scenario.rig) {
     const SE3& T = lidar.T_body_lidar;
-    char text[256];
-    std::snprintf(text, sizeof(text),
-                  "    - translation_m: [%.17g, %.17g, %.17g]\n"
-                  "      rotation: [%.17g, %.17g, %.17g, %.17g]\n",
-                  T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w());
-    yaml += text;
+    yaml += FormatText(
+        "    - translation_m: [%.17g, %.17g, %.17g]\n"
+        "      rotation: [%.17g, %.17g, %.17g, %.17g]\n",
+        T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w());
   }
   return yaml;
 }

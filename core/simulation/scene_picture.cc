@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <vector>
+
+#include "core/io/format_text.h"
 
 namespace trajlo::simulation {
 
@@ -47,10 +48,8 @@ struct View {
   double pixels_per_metre;
 
   std::string Point(const Vector2d& p, const char* separator) const {
-    char text[64];
-    std::snprintf(text, sizeof(text), "%.1f%s%.1f", (p.x() - low.x()) * pixels_per_metre, separator,
-                  (high.y() - p.y()) * pixels_per_metre);
-    return text;
+    return FormatText("%.1f%s%.1f", (p.x() - low.x()) * pixels_per_metre, separator,
+                      (high.y() - p.y()) * pixels_per_metre);
   }
   bool Shows(const Segment& s) const {
     const Vector2d a = s.first.cwiseMax(s.second);
@@ -85,12 +84,10 @@ std::string ScenePicture(const Simulator& simulator) {
   view.pixels_per_metre = kWidthPixels / (view.high - view.low).x();
   const double height_pixels = view.pixels_per_metre * (view.high - view.low).y();
 
-  char head[256];
-  std::snprintf(head, sizeof(head),
-                "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\">\n"
-                "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-                kWidthPixels, height_pixels);
-  std::string svg = head;
+  std::string svg = FormatText(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\">\n"
+      "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
+      kWidthPixels, height_pixels);
   const TriangleMesh& mesh = simulator.scene().mesh();
   svg += SlicePath(Slice(mesh, low.z() + 0.2), view, R"(stroke="#c0c8d0" stroke-width="1.5")");
   svg += SlicePath(Slice(mesh, mean_z), view, R"(stroke="#404850" stroke-width="1.5")");
@@ -103,13 +100,11 @@ std::string ScenePicture(const Simulator& simulator) {
 
   const double scale_m = std::pow(10.0, std::floor(std::log10((view.high - view.low).x() / 4.0)));
   const double y = height_pixels - 20.0;
-  char scale[256];
-  std::snprintf(
-      scale, sizeof(scale),
+  svg += FormatText(
       "<path d=\"M20 %.0fh%.1f\" stroke=\"black\" stroke-width=\"3\"/>\n"
       "<text x=\"20\" y=\"%.0f\" font-family=\"sans-serif\" font-size=\"18\">%g m</text>\n",
       y, scale_m * view.pixels_per_metre, y - 8.0, scale_m);
-  return svg + scale + "</svg>\n";
+  return svg + "</svg>\n";
 }
 
 }  // namespace trajlo::simulation
