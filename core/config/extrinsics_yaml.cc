@@ -19,7 +19,7 @@ void CollectNumbers(const YAML::Node& node, std::vector<double>* numbers) {
     return;
   }
   double number = 0.0;
-  if (!node.IsScalar() || !ParseNumber(node.Scalar(), &number)) {
+  if (!node.IsScalar() || !ParseFinite(node.Scalar(), &number)) {
     throw ErrorAt(node, "expected a finite number" +
                             (node.IsScalar() ? ", found '" + node.Scalar() + "'" : std::string()));
   }

@@ -27,7 +27,7 @@ std::string Join(const std::vector<std::string>& words) {
 template <typename Number, typename Field>
 Number NumberWithin(const YAML::Node& node, const Field& field, const Option& option) {
   Number number{};
-  if (!ParseNumber(node.Scalar(), &number) || !(number >= field.min && number <= field.max)) {
+  if (!ParseFinite(node.Scalar(), &number) || !(number >= field.min && number <= field.max)) {
     throw ErrorAt(node, "must be " + AllowedText(option) + ", found '" + node.Scalar() + "'");
   }
   return number;

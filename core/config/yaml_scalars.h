@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/config/option.h"
+#include "core/io/number_text.h"
 
 namespace trajlo {
 
@@ -20,11 +21,8 @@ inline ValueError ErrorAt(const YAML::Node& node, const std::string& what) {
 
 /// Parses the whole text as a number whatever the locale; false if it is none, or not finite.
 template <typename Number>
-bool ParseNumber(std::string_view text, Number* number) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const char* end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, *number);
-  return error == std::errc() && at == end && std::isfinite(static_cast<double>(*number));
+bool ParseFinite(std::string_view text, Number* number) {
+  return ParseNumber(text, number) && std::isfinite(static_cast<double>(*number));
 }
 
 /// The shortest text that reads back as the same double, with a decimal point, without which

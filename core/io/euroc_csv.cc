@@ -5,9 +5,9 @@
 
 #include "core/io/errors.h"
 #include "core/io/finite_pose.h"
+#include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
-#include "core/io/trajectory_lines.h"
 
 namespace trajlo {
 namespace {

@@ -4,12 +4,12 @@
 #include <lzf.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <optional>
 
 #include "core/io/ascii_table.h"
 #include "core/io/errors.h"
+#include "core/io/number_text.h"
 
 namespace trajlo {
 namespace {
@@ -39,11 +39,9 @@ struct PcdHeader {
 };
 
 std::optional<std::uint64_t> ParseCount(std::string_view word) {
-  std::uint64_t value = 0;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto value = ParseWhole(word);
   // Beyond 2^40 a product of two of them, or with a row's size, could overflow.
-  if (error != std::errc() || stop != word.data() + word.size() || value > (1ULL << 40)) return {};
-  return value;
+  return value && *value <= (1ULL << 40) ? value : std::nullopt;
 }
 
 std::optional<ScalarType> TypeOf(std::string_view kind, std::string_view size) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/io/ply_header.h"
 
-#include <charconv>
 #include <optional>
 
 #include "core/io/ascii_table.h"
 #include "core/io/errors.h"
+#include "core/io/number_text.h"
 
 namespace trajlo {
 namespace {
@@ -73,12 +73,11 @@ class HeaderParser {
   void ParseElement(std::string_view line) {
     PlyElement element;
     element.name = std::string(TakeWord(&line));
-    const std::string_view word = TakeWord(&line);
-    const auto [stop, error] =
-        std::from_chars(word.data(), word.data() + word.size(), element.count);
-    if (error != std::errc() || stop != word.data() + word.size() || element.count > (1ULL << 40)) {
+    const auto count = ParseWhole(TakeWord(&line));
+    if (!count || *count > (1ULL << 40)) {
       Fail("element '" + element.name + "' has no usable count");
     }
+    element.count = *count;
     header_.elements.push_back(element);
   }
 

@@ -2,19 +2,18 @@
 #include "core/io/scan_stamps.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
-#include "core/io/ascii_table.h"
 #include "core/io/errors.h"
 #include "core/io/file_bytes.h"
+#include "core/io/meaningful_lines.h"
+#include "core/io/number_text.h"
 #include "core/io/stamp_of_name.h"
 #include "core/io/stamp_text.h"
 #include "core/scans/median.h"
@@ -28,12 +27,6 @@ constexpr const char* kStampFiles[] = {"timestamps.txt", "times.txt", "stamps.tx
                                        "timestamp.txt"};
 constexpr const char* kRecordTimesFiles[] = {"record_times.txt"};
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-
-std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
 
 ScanStamps StampsOfNames(ScanListing* listing) {
   std::vector<std::pair<std::int64_t, fs::path>> stamped;
@@ -54,11 +47,7 @@ ScanStamps StampsOfNames(ScanListing* listing) {
 }
 
 std::optional<std::size_t> IndexOfName(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  std::size_t index = 0;
-  const auto [stop, error] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
-  if (error != std::errc() || stop != stem.data() + stem.size()) return {};
-  return index;
+  return ParseWhole(file.stem().string());
 }
 
 /// A name with its numbers left out: "scan_007 (2)" -> "scan_# (#)".
@@ -192,20 +181,17 @@ void WarnIfNotIncreasing(ScanStamps* stamps) {
 
 std::vector<std::int64_t> ReadStampsFile(const fs::path& path) {
   const FileBytes bytes = ReadFileBytes(path);
-  std::string_view text = bytes.view();
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
+  MeaningfulLines lines(bytes.view());
   std::vector<std::int64_t> stamps;
-  std::string_view line;
-  for (std::size_t number = 1; TakeLine(&text, &line); ++number) {
-    const std::string_view stamp = Trim(line);
-    if (stamp.empty() || stamp.front() == '#') continue;
+  for (std::string_view line; lines.Next(&line);) {
+    const std::string_view stamp = line.substr(0, line.find_last_not_of(" \t\r") + 1);
     const std::int64_t unit_ns =
         AllDigits(stamp) ? UnitOfWholeStampNs(stamp).value_or(0) : kNsPerSecond;
     auto t_ns = unit_ns > 0 ? ParseDecimalNs(stamp, unit_ns) : std::nullopt;
     if (!t_ns) t_ns = ParseDateTimeNs(stamp);
     if (!t_ns) {
       throw InputError(path,
-                       "line " + std::to_string(number) + " is no stamp: '" +
+                       "line " + std::to_string(lines.number()) + " is no stamp: '" +
                            std::string(stamp.substr(0, 60)) + "'",
                        "Write one stamp a line: seconds, nanoseconds, or "
                        "YYYY-MM-DD hh:mm:ss.nnnnnnnnn.");

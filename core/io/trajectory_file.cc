@@ -7,9 +7,9 @@
 #include "core/io/euroc_csv.h"
 #include "core/io/file_bytes.h"
 #include "core/io/kitti_poses.h"
+#include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
-#include "core/io/trajectory_lines.h"
 #include "core/io/trajectory_reader.h"
 
 namespace trajlo {
@@ -18,10 +18,6 @@ namespace {
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 // A file full of the same defect is described by its first lines.
 constexpr std::size_t kWarningsPerFile = 3;
-
-bool IsWholeNumber(std::string_view word) {
-  return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
-}
 
 TrajectoryFormat Detect(const std::filesystem::path& path, std::string_view text) {
   MeaningfulLines lines(text);
@@ -33,7 +29,7 @@ TrajectoryFormat Detect(const std::filesystem::path& path, std::string_view text
     stamp = TakeWord(&stamp);
     double number = 0.0;
     // With a fraction these would be seconds, and nobody could tell the order of the quaternion.
-    if (IsWholeNumber(stamp) || !ParseNumber(stamp, &number)) return TrajectoryFormat::kEuroc;
+    if (AllDigits(stamp) || !ParseNumber(stamp, &number)) return TrajectoryFormat::kEuroc;
     throw InputError(path, where + " is separated by commas but has no stamp in nanoseconds",
                      "EuRoC's csv begins with whole nanoseconds; TUM's format has blanks "
                      "between its columns.");
@@ -53,7 +49,7 @@ void CheckStampUnit(const std::filesystem::path& path, std::string_view text) {
   std::string_view line;
   if (!lines.Next(&line)) return;
   const std::string_view stamp = TakeWord(&line);
-  if (!IsWholeNumber(stamp) || ParseDecimalNs(stamp, kSecondNs)) return;
+  if (!AllDigits(stamp) || ParseDecimalNs(stamp, kSecondNs)) return;
   throw InputError(path,
                    "the stamp " + std::string(stamp) + " of line " +
                        std::to_string(lines.number()) + " would be in the far future",

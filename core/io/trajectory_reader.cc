@@ -4,10 +4,10 @@
 #include <array>
 #include <string_view>
 
-#include "core/io/ascii_table.h"
 #include "core/io/errors.h"
 #include "core/io/file_bytes.h"
 #include "core/io/finite_pose.h"
+#include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
 
@@ -49,31 +49,29 @@ std::vector<StampedPose> ReadTum(const std::filesystem::path& path,
 std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string_view text,
                                   std::vector<std::string>* warnings) {
   const bool ends_with_line = !text.empty() && text.back() == '\n';
-  if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   std::vector<StampedPose> poses, positions;
   std::vector<std::size_t> position_lines;
   const auto warn = [&](std::size_t number, const char* what) {
     if (warnings == nullptr) return;
     warnings->push_back(path.string() + ": line " + std::to_string(number) + " " + what);
   };
-  std::string_view line;
-  for (std::size_t number = 1; TakeLine(&text, &line); ++number) {
-    const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos || line[begin] == '#') continue;
+  MeaningfulLines lines(text);
+  for (std::string_view line; lines.Next(&line);) {
     StampedPose pose;
     const LineKind kind = ParseLine(line, &pose);
     if (kind == LineKind::kPose) {
       poses.push_back(pose);
     } else if (kind == LineKind::kWithoutRotation) {
       positions.push_back(pose);
-      position_lines.push_back(number);
+      position_lines.push_back(lines.number());
     } else if (kind == LineKind::kUnusable) {
-      warn(number, "is skipped: a number is not finite");
-    } else if (text.empty() && !ends_with_line) {
-      warn(number, "is skipped: it is incomplete, as after an interrupted recording");
+      warn(lines.number(), "is skipped: a number is not finite");
+    } else if (lines.at_end() && !ends_with_line) {
+      warn(lines.number(), "is skipped: it is incomplete, as after an interrupted recording");
     } else {
-      throw InputError(path, "line " + std::to_string(number) + " is not 'stamp x y z qx qy qz qw'",
-                       "A TUM trajectory has eight numbers a line, separated by blanks.");
+      throw InputError(
+          path, "line " + std::to_string(lines.number()) + " is not 'stamp x y z qx qy qz qw'",
+          "A TUM trajectory has eight numbers a line, separated by blanks.");
     }
   }
   if (poses.empty() && !positions.empty()) {

@@ -2,7 +2,6 @@
 #include "core/simulation/scenario_parameters.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -13,6 +12,7 @@
 
 #include "core/config/edit_distance.h"
 #include "core/io/format_text.h"
+#include "core/io/number_text.h"
 #include "core/simulation/scenes/scene_builder.h"
 
 namespace trajlo::simulation {
@@ -71,10 +71,7 @@ std::string Text(Integer value) {
 template <typename T>
 bool Parse(std::string_view text, T* value) {
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const char* end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, *value);
-  return error == std::errc() && at == end;
+  return ParseNumber(text, value);
 }
 
 SE3 ParsePose(const std::string& text) {

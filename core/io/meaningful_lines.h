@@ -27,6 +27,8 @@ class MeaningfulLines {
   }
   /// The number of the line that Next() gave, from 1.
   std::size_t number() const { return number_; }
+  /// True if nothing is behind that line, not even lines that say nothing.
+  bool at_end() const { return text_.empty(); }
 
  private:
   std::string_view text_;
