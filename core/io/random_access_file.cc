@@ -33,12 +33,14 @@ RandomAccessFile::RandomAccessFile(const std::filesystem::path& path)
 
 RandomAccessFile::~RandomAccessFile() { ::close(fd_); }
 
-std::size_t RandomAccessFile::Read(std::uint64_t offset, char* bytes, std::size_t count) const {
+std::size_t RandomAccessFile::Read(std::uint64_t offset, char* bytes, std::size_t count,
+                                   int* error) const {
   std::size_t filled = 0;
   while (filled < count) {
     const ssize_t got =
         ::pread(fd_, bytes + filled, count - filled, static_cast<off_t>(offset + filled));
     if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && error != nullptr) *error = errno;
     if (got <= 0) break;
     filled += static_cast<std::size_t>(got);
   }

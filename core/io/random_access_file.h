@@ -23,8 +23,10 @@ class RandomAccessFile {
   /// As it was when the file was opened.
   std::uint64_t size() const { return size_; }
 
-  /// Reads up to `count` bytes; fewer at the end of the file or where the disk fails.
-  std::size_t Read(std::uint64_t offset, char* bytes, std::size_t count) const;
+  /// Reads up to `count` bytes; fewer at the end of the file or where the disk fails, which sets
+  /// `error` to the number of the system's error.
+  std::size_t Read(std::uint64_t offset, char* bytes, std::size_t count,
+                   int* error = nullptr) const;
   /// The same into memory of its own, no larger than what lies behind `offset`.
   FileBytes Read(std::uint64_t offset, std::size_t count) const;
 
