@@ -3,21 +3,22 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "apps/evaluate/evaluation_csv.h"
 #include "apps/evaluate/evaluation_json.h"
 #include "apps/evaluate/evaluation_tex.h"
 #include "core/io/atomic_file.h"
-#include "core/io/errors.h"
+#include "core/report/result_folder.h"
 
 namespace trajlo {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFiles[] = {"evaluation.json", "evaluation.csv", "evaluation.tex",
-                                  "report.html"};
+std::vector<fs::path> FilesOf(const fs::path& folder) {
+  return {folder / "evaluation.json", folder / "evaluation.csv", folder / "evaluation.tex",
+          folder / "report.html"};
+}
 
 /// The errors_<name>.csv that an earlier evaluation says it wrote.
 std::vector<fs::path> EarlierErrors(const fs::path& folder) {
@@ -37,40 +38,19 @@ std::vector<fs::path> EarlierErrors(const fs::path& folder) {
   return files;
 }
 
-void Prepare(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw OutputError(folder, "the folder cannot be created: " + error.message());
-  std::vector<fs::path> earlier = EarlierErrors(folder);
-  for (const char* name : kFiles) earlier.push_back(folder / name);
-  for (const fs::path& file : earlier) {
-    if (!fs::is_regular_file(fs::symlink_status(file, error))) continue;
-    fs::remove(file, error);
-    if (error) throw OutputError(file, "the earlier result cannot be removed: " + error.message());
-  }
-}
-
 }  // namespace
 
 void CheckEvaluationFolder(const fs::path& folder, bool overwrite) {
-  std::error_code error;
-  const fs::file_status status = fs::status(folder, error);
-  if (fs::exists(status) && !fs::is_directory(status)) {
-    throw OutputError(folder, "exists already and is not a folder; choose another --output");
-  }
-  if (overwrite) return;
-  for (const char* name : kFiles) {
-    if (fs::exists(fs::symlink_status(folder / name, error))) {
-      throw OutputError(folder, std::string("holds an earlier result (") + name +
-                                    "); choose another --output, or add --overwrite to replace it");
-    }
-  }
+  CheckResultFolder(folder, FilesOf(folder), overwrite);
 }
 
 void WriteEvaluation(const EvaluateRequest& request, const EvaluationReport& report) {
   const fs::path& folder = request.output;
   const IfExists if_exists = request.overwrite ? IfExists::kReplace : IfExists::kFail;
-  Prepare(folder);
+  std::vector<fs::path> earlier = EarlierErrors(folder);
+  const std::vector<fs::path> files = FilesOf(folder);
+  earlier.insert(earlier.end(), files.begin(), files.end());
+  PrepareResultFolder(folder, earlier);
   for (const EstimateReport& estimate : report.estimates) {
     if (!estimate.evaluation) continue;
     WriteTextFile(folder / estimate.errors_csv,

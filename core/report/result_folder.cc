@@ -9,29 +9,26 @@ namespace trajlo {
 
 namespace fs = std::filesystem;
 
-void ResultFolder::Check(bool overwrite) const {
+void CheckResultFolder(const fs::path& folder, const std::vector<fs::path>& files, bool overwrite) {
   std::error_code error;
-  const fs::file_status status = fs::status(path_, error);
+  const fs::file_status status = fs::status(folder, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
-    throw OutputError(path_, "exists already and is not a folder; choose another --output");
+    throw OutputError(folder, "exists already and is not a folder; choose another --output");
   }
   if (overwrite) return;
-  for (const fs::path& file :
-       {summary(), trajectory(), map(), view(), windows(), flags(), covariance(), config()}) {
+  for (const fs::path& file : files) {
     if (fs::exists(fs::symlink_status(file, error))) {
-      throw OutputError(path_, "holds an earlier result (" + file.filename().string() +
-                                   "); choose another --output, or add --overwrite to replace it");
+      throw OutputError(folder, "holds an earlier result (" + file.filename().string() +
+                                    "); choose another --output, or add --overwrite to replace it");
     }
   }
 }
 
-void ResultFolder::Prepare() const {
+void PrepareResultFolder(const fs::path& folder, const std::vector<fs::path>& files) {
   std::error_code error;
-  fs::create_directories(path_, error);
-  if (error) throw OutputError(path_, "the folder cannot be created: " + error.message());
-  // Links are left alone: somebody wants the file elsewhere, and writing follows them.
-  for (const fs::path& file :
-       {summary(), trajectory(), map(), view(), windows(), flags(), covariance(), config()}) {
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(folder, "the folder cannot be created: " + error.message());
+  for (const fs::path& file : files) {
     if (!fs::is_regular_file(fs::symlink_status(file, error))) continue;
     fs::remove(file, error);
     if (error) throw OutputError(file, "the earlier result cannot be removed: " + error.message());

@@ -3,8 +3,19 @@
 
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 namespace trajlo {
+
+/// Throws OutputError if `folder` is none, or if it holds one of `files`, an earlier result, and
+/// `overwrite` is false. Creates and changes nothing.
+void CheckResultFolder(const std::filesystem::path& folder,
+                       const std::vector<std::filesystem::path>& files, bool overwrite);
+/// Creates the folder and removes `files`, so that no part of an earlier result survives beside
+/// the new one. Links are left alone: somebody wants the file elsewhere, and writing follows them.
+/// Throws OutputError.
+void PrepareResultFolder(const std::filesystem::path& folder,
+                         const std::vector<std::filesystem::path>& files);
 
 /// The folder that a run writes its results to, and the names of the files in it.
 class ResultFolder {
@@ -24,14 +35,14 @@ class ResultFolder {
   std::filesystem::path config() const { return path_ / "config.yaml"; }
   std::filesystem::path summary() const { return path_ / "run.json"; }
 
-  /// Throws OutputError if the path is no folder, or if it holds a result and `overwrite` is
-  /// false. Creates and changes nothing.
-  void Check(bool overwrite) const;
-  /// Creates the folder and removes an earlier result, so that no part of it survives beside the
-  /// new one. Throws OutputError.
-  void Prepare() const;
+  void Check(bool overwrite) const { CheckResultFolder(path_, Files(), overwrite); }
+  void Prepare() const { PrepareResultFolder(path_, Files()); }
 
  private:
+  std::vector<std::filesystem::path> Files() const {
+    return {summary(), trajectory(), map(), view(), windows(), flags(), covariance(), config()};
+  }
+
   std::filesystem::path path_;
 };
 
