@@ -40,38 +40,30 @@ def missing_scans(folder, rng):
     return f"scans {scans[0]} to {scans[-1]} not recorded"
 
 
-def empty_files(folder, rng):
+def spoilt(folder, rng, what, change):
+    """Some files are what `change` makes of their bytes."""
     indices = some(folder, rng)
     for index in indices:
-        folder.write(index, b"")
+        folder.write(index, change(folder.read(index)))
     folder.gone.update(indices)
-    return listed("zero length", indices)
+    return listed(what, indices)
+
+
+def empty_files(folder, rng):
+    return spoilt(folder, rng, "zero length", lambda data: b"")
 
 
 def cut_files(folder, rng):
-    indices = some(folder, rng)
-    for index in indices:
-        data = folder.read(index)
-        folder.write(index, data[:int(rng.integers(len(data) + 1))])
-    folder.gone.update(indices)
-    return listed("cut", indices)
+    return spoilt(folder, rng, "cut", lambda data: data[:int(rng.integers(len(data) + 1))])
 
 
 def flipped_bytes(folder, rng):
-    indices = some(folder, rng)
-    for index in indices:
-        folder.write(index, flip(folder.read(index), rng, 200))
-    folder.gone.update(indices)
-    return listed("bytes flipped", indices)
+    return spoilt(folder, rng, "bytes flipped", lambda data: flip(data, rng, 200))
 
 
 def flipped_headers(folder, rng):
-    indices = some(folder, rng)
-    for index in indices:
-        data = folder.read(index)
-        folder.write(index, flip(data[:200], rng, 6) + data[200:])
-    folder.gone.update(indices)
-    return listed("header bytes flipped", indices)
+    return spoilt(folder, rng, "header bytes flipped",
+                  lambda data: flip(data[:200], rng, 6) + data[200:])
 
 
 def empty_scans(folder, rng):
