@@ -176,7 +176,7 @@ std::optional<trajlo::simulation::BagFormat> BagFormatFromFlags(const Scenario& 
     throw UsageError("--bag_layout: must be ouster, velodyne or livox, found '" + FLAGS_bag_layout +
                      "'");
   }
-  const auto compression = trajlo::ParseBagCompression(FLAGS_bag_compression);
+  const auto compression = trajlo::ros1::FindCompression(FLAGS_bag_compression);
   if (!compression) {
     throw UsageError("--bag_compression: must be none, lz4 or bz2, found '" +
                      FLAGS_bag_compression + "'");

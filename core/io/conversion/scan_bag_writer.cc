@@ -14,10 +14,6 @@ std::optional<CloudLayout> ParseCloudLayout(std::string_view name) {
   return {};
 }
 
-std::optional<BagCompression> ParseBagCompression(std::string_view name) {
-  return ros1::FindCompression(name);
-}
-
 std::string TopicOf(CloudLayout layout, std::size_t lidar, std::size_t lidars) {
   const std::string number = lidars > 1 ? std::to_string(lidar + 1) : "";
   switch (layout) {

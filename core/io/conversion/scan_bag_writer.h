@@ -17,8 +17,6 @@ namespace trajlo {
 
 /// "ouster", "velodyne" or "livox"; nothing for other text.
 std::optional<CloudLayout> ParseCloudLayout(std::string_view name);
-/// "none", "lz4" or "bz2"; nothing for other text.
-std::optional<BagCompression> ParseBagCompression(std::string_view name);
 
 /// The topic on which public recordings have the points of such a sensor, for number `lidar` of
 /// `lidars` of this kind: /os_cloud_node/points, /os1_cloud_node1/points (as NTU VIRAL),

@@ -73,11 +73,6 @@ void Ros1BagWriter::Write(const TopicDescription& topic, std::int64_t recorded_n
         recorded_ns, message);
 }
 
-void Ros1BagWriter::Write(const std::string& topic, const MessageDescription& description,
-                          std::int64_t recorded_ns, std::string_view message) {
-  Write({topic, description}, recorded_ns, message);
-}
-
 void Ros1BagWriter::Write(const ros1::Connection& publisher, std::int64_t recorded_ns,
                           std::string_view message) {
   Write(publisher.topic, publisher.header, recorded_ns, message);

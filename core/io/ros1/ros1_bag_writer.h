@@ -36,8 +36,6 @@ class Ros1BagWriter : public BagWriter {
   /// year 2106, as the format demands, and need not increase.
   void Write(const TopicDescription& topic, std::int64_t recorded_ns,
              std::string_view message) override;
-  void Write(const std::string& topic, const MessageDescription& description,
-             std::int64_t recorded_ns, std::string_view message);
   /// The same for a message of another bag, whose publisher keeps all that is known of it but its
   /// id. Publishers that differ in nothing else become one.
   void Write(const ros1::Connection& publisher, std::int64_t recorded_ns, std::string_view message);

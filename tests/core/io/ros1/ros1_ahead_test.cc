@@ -94,7 +94,7 @@ class ChunksOf {
   ChunksOf(BagCompression compression, std::size_t count, std::size_t bytes) {
     Ros1BagWriter writer(folder_ / "a.bag", {compression, 1});
     for (std::size_t i = 0; i < count; ++i) {
-      writer.Write("/a", kString, static_cast<std::int64_t>(i), std::string(bytes, 'x'));
+      writer.Write({"/a", kString}, static_cast<std::int64_t>(i), std::string(bytes, 'x'));
     }
     writer.Close();
     places_ = RecordsOf(path(), ros1::Op::kChunk);

@@ -286,7 +286,7 @@ TEST_P(CutChunk, GivesTheBlocksInFrontOfTheCut) {
   for (int i = 0; i < kCount; ++i) {
     std::string noise(10'000, '\0');
     for (char& c : noise) c = static_cast<char>(random());
-    writer.Write("/a", kString, i, noise);
+    writer.Write({"/a", kString}, i, noise);
   }
   writer.Close();
   ASSERT_THAT(RecordsOf(path, ros1::Op::kChunk), SizeIs(1));

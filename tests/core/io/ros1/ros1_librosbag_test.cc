@@ -68,7 +68,7 @@ TEST(Librosbag, ReadsWhatWeWrite) {
       std::vector<BagMessage> messages = FixtureMessages();
       messages[30].bytes.assign(3'000'000, 'x');  // Several blocks of lz4.
       for (const BagMessage& message : messages) {
-        writer.Write(message.topic, type, message.recorded_ns, message.bytes);
+        writer.Write({message.topic, type}, message.recorded_ns, message.bytes);
       }
       writer.Close();
       EXPECT_TRUE(ReadByLibrosbag(folder / "a.bag") == messages);

@@ -67,7 +67,7 @@ TEST(Reader, MergesMoreOverlappingChunksThanItHoldsAtOnce) {
     for (int i = 0; i < kCount; ++i) {
       // Even stamps ascend; the odd ones of the other topic descend, so that nothing can be let go.
       const int stamp = topic == 0 ? 2 * i : 2 * (kCount - i) - 1;
-      writer.Write(topic == 0 ? "/a" : "/b", type, stamp, megabyte + std::to_string(stamp));
+      writer.Write({topic == 0 ? "/a" : "/b", type}, stamp, megabyte + std::to_string(stamp));
     }
   }
   writer.Close();

@@ -33,7 +33,7 @@ TEST_P(Written, BagReadsBackToTheLastByte) {
   std::vector<BagMessage> messages = FixtureMessages();
   std::swap(messages[5], messages[50]);
   for (const BagMessage& message : messages) {
-    writer.Write(message.topic, message.topic == "/pose" ? kPose : kPoints, message.recorded_ns,
+    writer.Write({message.topic, message.topic == "/pose" ? kPose : kPoints}, message.recorded_ns,
                  message.bytes);
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a.bag"));
@@ -57,10 +57,10 @@ TEST(Writer, KeepsEmptyMessagesAndTheFirstAndTheLastStampOfTheFormat) {
   const TempFolder folder;
   constexpr std::int64_t kLast_ns = 4294967295999999999;
   Ros1BagWriter writer(folder / "a.bag");
-  writer.Write("/pose", kPose, kLast_ns, "");
-  writer.Write("/pose", kPose, 0, "x");
-  EXPECT_THROW(writer.Write("/pose", kPose, kLast_ns + 1, "x"), OutputError);
-  EXPECT_THROW(writer.Write("/pose", kPose, -1, "x"), OutputError);
+  writer.Write({"/pose", kPose}, kLast_ns, "");
+  writer.Write({"/pose", kPose}, 0, "x");
+  EXPECT_THROW(writer.Write({"/pose", kPose}, kLast_ns + 1, "x"), OutputError);
+  EXPECT_THROW(writer.Write({"/pose", kPose}, -1, "x"), OutputError);
   writer.Close();
   EXPECT_THAT(ReadBag(folder / "a.bag"),
               ElementsAre(FieldsAre("/pose", 0, "x"), FieldsAre("/pose", kLast_ns, "")));
@@ -77,7 +77,7 @@ TEST(Writer, ABagWithoutMessagesIsABagToo) {
 
 TEST(Writer, LeavesNothingWithoutClose) {
   const TempFolder folder;
-  { Ros1BagWriter(folder / "a.bag").Write("/pose", kPose, 1, "x"); }
+  { Ros1BagWriter(folder / "a.bag").Write({"/pose", kPose}, 1, "x"); }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
@@ -86,7 +86,7 @@ TEST(Writer, RefusesToWriteAfterClose) {
   Ros1BagWriter writer(folder / "a.bag");
   writer.Close();
   writer.Close();
-  EXPECT_THROW(writer.Write("/pose", kPose, 1, "x"), OutputError);
+  EXPECT_THROW(writer.Write({"/pose", kPose}, 1, "x"), OutputError);
 }
 
 TEST(Writer, DoesNotReplaceABagWithoutBeingToldSo) {
@@ -114,7 +114,7 @@ TEST(Writer, ADiskThatFillsUpIsAnErrorAndLeavesNothing) {
   setrlimit(RLIMIT_FSIZE, &limit);
   {
     Ros1BagWriter writer(folder / "a.bag");
-    writer.Write("/pose", kPose, 1, std::string(200'000, 'x'));
+    writer.Write({"/pose", kPose}, 1, std::string(200'000, 'x'));
     EXPECT_THROW(writer.Close(), OutputError);
   }
   setrlimit(RLIMIT_FSIZE, &before);
