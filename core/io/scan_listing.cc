@@ -101,9 +101,7 @@ ScanListing MakeListing(const fs::path& folder, const FolderContent& content) {
     listing.notes.push_back(std::to_string(left_out) + " point files in " + folder.string() +
                             " do not end in " + listing.extension + " and are left out");
   }
-  std::sort(listing.files.begin(), listing.files.end(), [](const fs::path& a, const fs::path& b) {
-    return NaturalLess(a.filename().string(), b.filename().string());
-  });
+  SortNaturally(&listing.files);
   return listing;
 }
 
@@ -132,6 +130,12 @@ bool NaturalLess(std::string_view a, std::string_view b) {
   }
   if (a.empty() && b.empty()) return whole_a < whole_b;  // "7" and "007": any fixed order will do.
   return a.empty();
+}
+
+void SortNaturally(std::vector<fs::path>* files) {
+  std::sort(files->begin(), files->end(), [](const fs::path& a, const fs::path& b) {
+    return NaturalLess(a.filename().string(), b.filename().string());
+  });
 }
 
 ScanListing ListScans(const fs::path& path) {

@@ -27,5 +27,7 @@ ScanListing ListScans(const std::filesystem::path& path);
 
 /// True if `a` comes before `b` when runs of digits are compared as numbers.
 bool NaturalLess(std::string_view a, std::string_view b);
+/// By the names of the files, whatever their folders.
+void SortNaturally(std::vector<std::filesystem::path>* files);
 
 }  // namespace trajlo

@@ -29,9 +29,7 @@ std::vector<fs::path> Ros1Bags(const fs::path& folder) {
     const fs::path extension = entry.path().extension();
     if (extension == ".bag" || extension == ".active") bags.push_back(entry.path());
   }
-  std::sort(bags.begin(), bags.end(), [](const fs::path& a, const fs::path& b) {
-    return NaturalLess(a.filename().string(), b.filename().string());
-  });
+  SortNaturally(&bags);
   return bags;
 }
 
@@ -51,6 +49,10 @@ bool IsCapture(const std::string& bytes) {
                        "\xa1\xb2\x3c\x4d"sv, "\x0a\x0d\x0d\x0a"sv};
   return std::any_of(magics.begin(), magics.end(),
                      [&](std::string_view magic) { return BeginsWith(bytes, magic); });
+}
+
+bool BeginsAsRos2(const std::string& bytes) {
+  return BeginsWith(bytes, "\x89MCAP") || BeginsWith(bytes, "SQLite format 3");
 }
 
 std::unique_ptr<CloudMessageReader> OpenRos1(const fs::path& path, const CloudOptions& options) {
@@ -82,9 +84,7 @@ std::unique_ptr<CloudMessageReader> OpenFile(const fs::path& path, const CloudOp
   if (IsCapture(bytes) || BeginsAsVelodynePayloads(bytes)) {
     return std::make_unique<PacketCloudReader>(path, options.packets);
   }
-  const bool is_ros2 =
-      BeginsWith(bytes, "\x89MCAP") || BeginsWith(bytes, "SQLite format 3") || IsRos2Bag(path);
-  if (is_ros2) return OpenRos2(path);
+  if (BeginsAsRos2(bytes) || IsRos2Bag(path)) return OpenRos2(path);
   FailUnknown(path);
 }
 
@@ -119,8 +119,7 @@ bool HoldsMessages(const fs::path& path) {
   if (!fs::exists(path, error)) return false;
   if (!Ros1BagsOf(path).empty() || IsRos2Bag(path)) return true;
   if (fs::is_directory(path, error)) return false;
-  const std::string bytes = FirstBytes(path);
-  return BeginsWith(bytes, "\x89MCAP") || BeginsWith(bytes, "SQLite format 3");
+  return BeginsAsRos2(FirstBytes(path));
 }
 
 std::unique_ptr<RawMessageReader> OpenMessages(const fs::path& path, int threads) {

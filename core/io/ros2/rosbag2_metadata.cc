@@ -3,7 +3,6 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -54,9 +53,7 @@ std::vector<std::filesystem::path> ListBagFiles(const std::filesystem::path& fol
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     if (IsFile(entry.path()) && IsRosbag2File(entry.path())) files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-    return NaturalLess(a.filename().string(), b.filename().string());
-  });
+  SortNaturally(&files);
   return files;
 }
 
