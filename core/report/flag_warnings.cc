@@ -28,6 +28,11 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
   const double all_s = summary.flags.seconds();
   if (!(all_s > 0.0)) return warnings;
   const auto total = [&](const char* name) { return summary.flags.totals().at(name); };
+  const auto warn_of_share = [&](const char* name, const std::string& what) {
+    const double seconds = total(name).seconds;
+    if (!(seconds > kWorthSaying * all_s)) return;
+    warnings.push_back("for " + SecondsText(seconds, all_s) + what + " (flag " + name + ")");
+  };
 
   const FlaggedPoses gap = total("gap");
   if (gap.poses > 0) {
@@ -35,27 +40,17 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
                        std::to_string(gap.poses) + (gap.poses == 1 ? " stretch" : " stretches") +
                        "; the motion in between is unknown (flag gap in flags.csv)");
   }
-  const FlaggedPoses unsupported = total("no_points");
-  if (unsupported.seconds > kWorthSaying * all_s) {
-    warnings.push_back("for " + SecondsText(unsupported.seconds, all_s) +
-                       " hardly any point lay on the map; the motion prior carries the poses there "
-                       "(flag no_points)");
-  }
-  const FlaggedPoses degenerate = total("degenerate");
+  warn_of_share("no_points",
+                " hardly any point lay on the map; the motion prior carries the poses there");
   const auto& axes = summary.windows.weak_axes;
-  if (degenerate.seconds > kWorthSaying * all_s && !axes.empty()) {
+  if (!axes.empty()) {
     const auto weakest = std::max_element(
         axes.begin(), axes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    warnings.push_back("for " + SecondsText(degenerate.seconds, all_s) +
-                       " the points leave a direction open, mostly " + Words(weakest->first) +
-                       "; the poses may be off by more than it seems (flag degenerate)");
+    warn_of_share("degenerate", " the points leave a direction open, mostly " +
+                                    Words(weakest->first) +
+                                    "; the poses may be off by more than it seems");
   }
-  const FlaggedPoses few = total("few_inliers");
-  if (few.seconds > kWorthSaying * all_s) {
-    warnings.push_back("for " + SecondsText(few.seconds, all_s) +
-                       " too few points agree with the map; the poses there may be wrong "
-                       "(flag few_inliers)");
-  }
+  warn_of_share("few_inliers", " too few points agree with the map; the poses there may be wrong");
   return warnings;
 }
 
