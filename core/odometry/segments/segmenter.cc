@@ -52,12 +52,11 @@ SE3 Segmenter::PoseOf(std::size_t lidar) const {
 }
 
 bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body) {
-  Eigen::Vector3f p = point.xyz_m;
-  if (!p.allFinite()) {
+  if (!point.xyz_m.allFinite()) {
     ++counts_.not_finite;
     return false;
   }
-  const double range = p.cast<double>().norm();
+  const double range = point.xyz_m.cast<double>().norm();
   if (range < options_.min_range_m) {
     ++counts_.too_near;
     return false;
@@ -66,10 +65,8 @@ bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::
     ++counts_.too_far;
     return false;
   }
-  if (options_.vertical_correction_deg != 0.0) {
-    p = TurnUp(p, static_cast<float>(options_.vertical_correction_deg * M_PI / 180.0));
-  }
-  *p_body = (T_body_lidar * p.cast<double>()).cast<float>();
+  const auto up_rad = static_cast<float>(options_.vertical_correction_deg * M_PI / 180.0);
+  *p_body = (T_body_lidar * TurnUp(point.xyz_m, up_rad).cast<double>()).cast<float>();
   return true;
 }
 
