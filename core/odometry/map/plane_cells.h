@@ -67,7 +67,7 @@ class PlaneCells {
     std::atomic<std::uint32_t> fitted_at{kNever};  ///< Points around its site at the fit.
 
     Cell() = default;
-    Cell(Cell&& other) noexcept
+    Cell(const Cell& other)
         : plane(other.plane), fitted_at(other.fitted_at.load(std::memory_order_relaxed)) {}
   };
 
