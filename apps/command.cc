@@ -49,10 +49,11 @@ void QuietenCeres() {
   gflags::SetCommandLineOptionWithMode("logtostderr", "true", gflags::SET_FLAGS_DEFAULT);
 }
 
-/// The C library maps large arrays apart, and they go back to the system when they are freed.
-/// Unless it is told what is large, it takes ever more for it, and the heap keeps the holes: after
-/// the first searches for a place, a run would hold a tenth more memory. Scans are smaller: mapping
-/// each of them anew takes time.
+/// The C library gives a large array a mapping of its own, which goes back to the system when the
+/// array is freed. Unless it is told what is large, it raises the bound with every such array, and
+/// what is below the bound leaves holes in the heap: at the end of an hour of pauses and other
+/// faults (scripts/soak) a run held an eighth more memory. Scans stay below the bound: to map each
+/// of them anew takes time.
 void ReturnLargeArrays() {
   constexpr int kLarge = 4 << 20;
   mallopt(M_MMAP_THRESHOLD, kLarge);

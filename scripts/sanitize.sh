@@ -6,7 +6,7 @@
 #   scripts/sanitize.sh tsan --fast    only the tests with the label fast, and the five runs
 #   scripts/sanitize.sh asan --slice   few parts only: see below
 # The five runs: a folder, a bag, two LiDARs, motion-corrected scans (KITTI), a bag that is cut.
-# The slow tests are mostly long runs, which take hours here, and run no code of their own.
+# The slow tests are long runs of the odometry, which take hours here.
 # The slice is what continuous integration has time for: the whole method, on the random scans of the
 # fuzz targets (tests/fuzz/corpus), with one thread and with four.
 # A report of a sanitizer ends the program with a code that none of its own exits has.

@@ -48,8 +48,7 @@ struct OdometryOptions {
   void Describe(Describer& d) {
     d(OptionFor::kUsers, "threads", threads, Range<int>{0, 1024},
       "Number of threads; 0 takes all cores. The result does not depend on it. With N > 1, one "
-      "more "
-      "reads ahead, and as many decompress bz2 chunks of a ROS 1 bag.");
+      "more reads ahead, and as many decompress bz2 chunks of a ROS 1 bag.");
   }
 };
 

@@ -102,8 +102,8 @@ void PcdFolderWriter::Write(const LidarScan& scan, std::optional<std::int64_t> r
 
 void PcdFolderWriter::Close() {
   WriteTextFile(folder_ / "timestamps.txt", FormatStampsFile(stamps_ns_));
-  if (!recorded_ns_.empty())
-    WriteTextFile(folder_ / "record_times.txt", FormatStampsFile(recorded_ns_));
+  if (recorded_ns_.empty()) return;
+  WriteTextFile(folder_ / "record_times.txt", FormatStampsFile(recorded_ns_));
 }
 
 }  // namespace trajlo

@@ -24,8 +24,8 @@ std::vector<std::string> LidarNames(const std::vector<std::string>& inputs,
 ///   - a bag (.bag, .db3, .mcap), a capture of packets (.pcap), or a folder of bags that follow
 ///     each other: as many LiDARs as `options.topics` names.
 /// `lidar_id` counts through the inputs. Several inputs are merged (see MergedRecording).
-/// With other than one of `threads` (see CloudOptions), the next scan is read while the present one
-/// is worked on; the scans do not depend on it. Throws InputError.
+/// `threads` as in CloudOptions; with 1, nothing is read ahead. The scans do not depend on it.
+/// Throws InputError.
 std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs,
                                           const RecordingOptions& options, int threads = 1);
 

@@ -25,7 +25,8 @@ class PlaneCells {
   void Resize(std::size_t sites) {
     constexpr std::size_t kSites = std::size_t{1} << kSitesPerBlockLog2;
     if (blocks_.empty()) blocks_.emplace_back();
-    // A small map has a small block: to clear a whole one takes longer than to fit its planes.
+    // A small map has a small block: clearing a whole one takes time, and the search for the first
+    // motion makes many small maps.
     blocks_.front().resize(kPerSite * std::min(sites, kSites));
     while (blocks_.size() * kSites < sites) blocks_.emplace_back(kPerSite * kSites);
   }

@@ -202,7 +202,8 @@ std::optional<SegmentCloud> Segmenter::Next() {
   cloud.begin_ns = slot.begin_ns;
   cloud.end_ns = slot.end_ns;
   cloud.is_gap = slot.is_gap;
-  usual_points_ = slot.points.size() + slot.points.size() / 8;
+  // The first segment is longer than the others.
+  if (first_taken_) usual_points_ = slot.points.size() + slot.points.size() / 8;
   for (std::size_t lidar = 0; lidar < newest_ns_.size(); ++lidar) {
     cloud.lidar_origins_body_m.push_back(PoseOf(lidar).t);
   }
