@@ -27,8 +27,8 @@ struct MarginalizationPrior {
   bool first_estimate_jacobians = false;
 
   int poses() const { return static_cast<int>(linearization_points.size()); }
-  Eigen::MatrixXd Information() const { return sqrt_information.transpose() * sqrt_information; }
-  Eigen::VectorXd Gradient() const { return sqrt_information.transpose() * offset; }
+  Eigen::MatrixXd Information() const;
+  Eigen::VectorXd Gradient() const;
 
   /// `s` has at least poses() poses. The Jacobian is with respect to their right perturbations.
   Eigen::VectorXd Residual(const std::vector<SE3>& s) const;

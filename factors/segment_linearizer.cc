@@ -71,6 +71,16 @@ void LinearizeGroup(const GatheredPoints& points, const SegmentMotion& m,
 
 }  // namespace
 
+RegistrationNormalEquations LinearizedRegistration::At(const SE3& T_begin, const SE3& T_end) const {
+  Vector12d xi;
+  xi << Minus(T_begin, T_world_begin), Minus(T_end, T_world_end);
+  const Vector12d H_xi = equations.H * xi;
+  RegistrationNormalEquations shifted = equations;
+  shifted.g += H_xi;
+  shifted.cost += equations.g.dot(xi) + 0.5 * xi.dot(H_xi);
+  return shifted;
+}
+
 SegmentLinearizer::SegmentLinearizer(const SE3& T_begin, const SE3& T_end,
                                      const RegistrationNoise& noise)
     : motion_(T_begin, T_end), noise_(noise) {}

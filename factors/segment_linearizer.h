@@ -34,15 +34,7 @@ struct LinearizedRegistration {
 
   /// The registration xi = [T_begin ⊖ T_world_begin; T_end ⊖ T_world_end] away from there, to first
   /// order and with the kernel's weights of there: g + H xi, cost + gᵀxi + ½ xiᵀH xi.
-  RegistrationNormalEquations At(const SE3& T_begin, const SE3& T_end) const {
-    Vector12d xi;
-    xi << Minus(T_begin, T_world_begin), Minus(T_end, T_world_end);
-    const Vector12d H_xi = equations.H * xi;
-    RegistrationNormalEquations shifted = equations;
-    shifted.g += H_xi;
-    shifted.cost += equations.g.dot(xi) + 0.5 * xi.dot(H_xi);
-    return shifted;
-  }
+  RegistrationNormalEquations At(const SE3& T_begin, const SE3& T_end) const;
 };
 
 /// Evaluates PointToPlaneCost for all points of a segment in one pass.

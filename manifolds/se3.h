@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "manifolds/so3.h"
+#include "manifolds/stumpff.h"
 
 namespace trajlo {
 
@@ -46,40 +47,16 @@ static_assert(sizeof(SE3) == 7 * sizeof(double) || sizeof(SE3) == 8 * sizeof(dou
 namespace se3 {
 
 /// ad(tau) = [[theta]x [rho]x; 0 [theta]x].
-inline Matrix6d AdjointAlgebra(const Vector6d& tau) {
-  Matrix6d ad = Matrix6d::Zero();
-  ad.topLeftCorner<3, 3>() = so3::Hat(tau.tail<3>());
-  ad.topRightCorner<3, 3>() = so3::Hat(tau.head<3>());
-  ad.bottomRightCorner<3, 3>() = ad.topLeftCorner<3, 3>();
-  return ad;
-}
+Matrix6d AdjointAlgebra(const Vector6d& tau);
 
 /// Adj(T) = [R [t]x R; 0 R], so that T Exp(tau) = Exp(Adj(T) tau) T.
-inline Matrix6d Adjoint(const SE3& T) {
-  const Eigen::Matrix3d R = T.q.toRotationMatrix();
-  Matrix6d adjoint = Matrix6d::Zero();
-  adjoint.topLeftCorner<3, 3>() = R;
-  adjoint.topRightCorner<3, 3>() = so3::Hat(T.t) * R;
-  adjoint.bottomRightCorner<3, 3>() = R;
-  return adjoint;
-}
+Matrix6d Adjoint(const SE3& T);
 
 /// Exp(tau) = (Exp(theta), Jl(theta) rho).
-inline SE3 Exp(const Vector6d& tau) {
-  const Eigen::Vector3d rho = tau.head<3>();
-  const Eigen::Vector3d theta = tau.tail<3>();
-  const Stumpff s(theta.squaredNorm());
-  const Eigen::Vector3d theta_x_rho = theta.cross(rho);
-  return {so3::Exp(theta), rho + s.c2 * theta_x_rho + s.c3 * theta.cross(theta_x_rho)};
-}
+SE3 Exp(const Vector6d& tau);
 
 /// Log(T) = [Jl⁻¹(theta) t; theta], |theta| <= pi.
-inline Vector6d Log(const SE3& T) {
-  Vector6d tau;
-  tau.tail<3>() = so3::Log(T.q);
-  tau.head<3>() = so3::LeftJacobianInverse(tau.tail<3>()) * T.t;
-  return tau;
-}
+Vector6d Log(const SE3& T);
 
 /// The coefficients of Jl(tau) = I + a1 ad + a2 ad² + a3 ad³ + a4 ad⁴: the series
 /// sum ad^n / (n+1)! closed by (ad² + |theta|²)² ad = 0. Given in Stumpff functions of |theta|.
@@ -94,27 +71,14 @@ struct LeftJacobianCoefficients {
 };
 
 /// Jl(tau): Exp(tau + d) = Exp(Jl(tau) d) Exp(tau) to first order.
-inline Matrix6d LeftJacobian(const Vector6d& tau) {
-  const LeftJacobianCoefficients<double> a(Stumpff(tau.tail<3>().squaredNorm()));
-  const Matrix6d I = Matrix6d::Identity();
-  const Matrix6d ad = AdjointAlgebra(tau);
-  return I + ad * (a.a1 * I + ad * (a.a2 * I + ad * (a.a3 * I + a.a4 * ad)));
-}
+Matrix6d LeftJacobian(const Vector6d& tau);
 
 /// Jr(tau) = Jl(-tau): Exp(tau + d) = Exp(tau) Exp(Jr(tau) d) to first order.
 inline Matrix6d RightJacobian(const Vector6d& tau) { return LeftJacobian(-tau); }
 
 /// Jl⁻¹(tau) = [Ji  -Ji Q Ji; 0  Ji], with Ji = Jl⁻¹(theta) of SO(3) and Q the upper right block
 /// of Jl(tau).
-inline Matrix6d LeftJacobianInverse(const Vector6d& tau) {
-  const Eigen::Matrix3d Ji = so3::LeftJacobianInverse(tau.tail<3>());
-  const Eigen::Matrix3d Q = LeftJacobian(tau).topRightCorner<3, 3>();
-  Matrix6d inverse = Matrix6d::Zero();
-  inverse.topLeftCorner<3, 3>() = Ji;
-  inverse.topRightCorner<3, 3>() = -Ji * Q * Ji;
-  inverse.bottomRightCorner<3, 3>() = Ji;
-  return inverse;
-}
+Matrix6d LeftJacobianInverse(const Vector6d& tau);
 
 /// Jr⁻¹(tau) = Jl⁻¹(-tau).
 inline Matrix6d RightJacobianInverse(const Vector6d& tau) { return LeftJacobianInverse(-tau); }

@@ -23,14 +23,7 @@ inline SE3 Interpolate(const SE3& T_begin, const SE3& T_end, double alpha) {
 /// with the Stumpff functions at alpha |theta|; a fraction of the cost of the general formula. T is
 /// a double, or four of them (lanes.h).
 struct SegmentMotion {
-  SegmentMotion(const SE3& T_begin, const SE3& T_end)
-      : R_begin(T_begin.q.toRotationMatrix()), t_begin(T_begin.t), tau(Minus(T_end, T_begin)) {
-    rho = tau.head<3>();
-    theta = tau.tail<3>();
-    theta_x_rho = theta.cross(rho);
-    theta_x_theta_x_rho = theta.cross(theta_x_rho);
-    angle_squared = theta.squaredNorm();
-  }
+  SegmentMotion(const SE3& T_begin, const SE3& T_end);
 
   /// p0; `c` are the Stumpff functions at alpha² angle_squared.
   template <typename T>
@@ -89,9 +82,6 @@ struct InterpolationJacobians {
   Matrix6d wrt_end;    ///< alpha Jr(alpha tau) Jr⁻¹(tau), paper's Jacobian d.
 };
 
-inline InterpolationJacobians InterpolateJacobians(const Vector6d& tau, double alpha) {
-  return {(1.0 - alpha) * se3::RightJacobian((alpha - 1.0) * tau) * se3::LeftJacobianInverse(tau),
-          alpha * se3::RightJacobian(alpha * tau) * se3::RightJacobianInverse(tau)};
-}
+InterpolationJacobians InterpolateJacobians(const Vector6d& tau, double alpha);
 
 }  // namespace trajlo

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/odometry/health/belief.h"
+#include "core/odometry/parallel/side_task.h"
 #include "core/odometry/segments/join_segments.h"
 #include "core/odometry/stopwatch.h"
 #include "core/odometry/window/associate_window.h"
@@ -143,13 +144,12 @@ void Odometry::Step(SegmentCloud cloud) {
   }
   NoteSupport();
   window_.is_believed = IsBelievable(statistics, window_);
-  if (window_.is_believed) {
-    Learn(predicted.back());
-  } else {
-    Revert(predicted, &window_);
-  }
+  if (!window_.is_believed) Revert(predicted, &window_);
+  SideTask learning(&threads_);
+  if (window_.is_believed) learning.Start([&] { Learn(predicted.back()); });
   Describe(window_, &statistics);
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
+  learning.Wait();
   Watch(&statistics);
   const int to_keep = SegmentsToKeep();
   while (window_.size() > to_keep) Leave(&statistics);

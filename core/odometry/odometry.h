@@ -11,7 +11,7 @@
 #include "core/odometry/health/support.h"
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_stream.h"
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/start/return_search.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <tbb/task_group.h>
+#include <functional>
+#include <memory>
 
-#include <utility>
-
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 
 namespace trajlo {
 
@@ -14,36 +13,23 @@ namespace trajlo {
 class SideTask {
  public:
   /// `threads` must outlive it.
-  explicit SideTask(ThreadPool* threads) : threads_(threads) {}
+  explicit SideTask(ThreadPool* threads);
   SideTask(const SideTask&) = delete;
   SideTask& operator=(const SideTask&) = delete;
   /// Waits. What the work threw is lost unless Wait() was called, which an exception may have
   /// skipped.
-  ~SideTask() {
-    try {
-      Wait();
-    } catch (...) {
-    }
-  }
+  ~SideTask();
 
   /// What `work` refers to must live as long as this object.
-  template <typename Work>
-  void Start(Work work) {
-    if (threads_->threads() == 1) {
-      work();
-    } else {
-      threads_->Execute([&] { group_.run(std::move(work)); });
-    }
-  }
+  void Start(const std::function<void()>& work);
   /// Until the work is done, if there is any; throws what it threw. Does it itself if no other
   /// thread has begun.
-  void Wait() {
-    if (threads_->threads() > 1) threads_->Execute([&] { group_.wait(); });
-  }
+  void Wait();
 
  private:
+  struct Group;
   ThreadPool* threads_;
-  tbb::task_group group_;
+  std::unique_ptr<Group> group_;
 };
 
 }  // namespace trajlo

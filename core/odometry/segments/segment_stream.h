@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segmenter.h"
 #include "core/scans/scan_sequencer.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/solvers/solver_options.h"
 #include "core/odometry/window/window.h"
 #include "core/odometry/window/window_equations.h"

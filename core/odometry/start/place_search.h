@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/odometry/map/voxel_hash_map.h"
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {

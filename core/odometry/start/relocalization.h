@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/odometry/map/map_pyramid.h"
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_cloud.h"
 #include "core/odometry/start/place_search.h"
 #include "core/odometry/weights/registration_options.h"

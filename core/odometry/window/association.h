@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/odometry/map/map_pyramid.h"
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_cloud.h"
 #include "core/odometry/window/step_size.h"
 #include "factors/registration_point.h"

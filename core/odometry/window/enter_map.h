@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/odometry/map/map_pyramid.h"
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_cloud.h"
 #include "manifolds/se3.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/odometry/parallel/parallel_for.h"
+#include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/window/step_size.h"
 #include "core/odometry/window/window.h"
 

@@ -2,6 +2,13 @@
 #include "core/odometry/window/window_equations.h"
 
 namespace trajlo {
+
+void WindowNormalEquations::Add(int first, const Eigen::Ref<const Eigen::MatrixXd>& J,
+                                const Eigen::Ref<const Eigen::VectorXd>& r) {
+  H.block(6 * first, 6 * first, J.cols(), J.cols()).noalias() += J.transpose() * J;
+  g.segment(6 * first, J.cols()).noalias() += J.transpose() * r;
+}
+
 WindowCost CostWithoutRegistration(const Window& window, const std::vector<SE3>& poses) {
   WindowCost cost;
   cost.prior = 0.5 * window.prior.Residual(poses).squaredNorm();

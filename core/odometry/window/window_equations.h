@@ -43,10 +43,7 @@ struct WindowNormalEquations {
   }
   /// A term with residual r on the poses from `first` on.
   void Add(int first, const Eigen::Ref<const Eigen::MatrixXd>& J,
-           const Eigen::Ref<const Eigen::VectorXd>& r) {
-    H.block(6 * first, 6 * first, J.cols(), J.cols()).noalias() += J.transpose() * J;
-    g.segment(6 * first, J.cols()).noalias() += J.transpose() * r;
-  }
+           const Eigen::Ref<const Eigen::VectorXd>& r);
 };
 
 /// Adds prior, motion and registration at `poses`; `registration` has one entry a segment, at the
