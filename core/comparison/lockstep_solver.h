@@ -27,7 +27,7 @@ struct LockstepRecord {
 struct LockstepOptions {
   /// Each window is solved until the steps are this small, so that solutions can be compared.
   int max_iterations = 30;
-  StepTolerance step_tolerance = {1e-9, 1e-10};
+  StepSize step_tolerance = {1e-9, 1e-10};
   /// Every so many windows are compared.
   int every = 1;
 };

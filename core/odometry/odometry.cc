@@ -57,6 +57,7 @@ void Odometry::Take(SegmentCloud cloud) {
     if (!trajectory_.empty()) {
       SettleWindow(cloud.end_ns);
       window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
+      window_.begin_flags = kFlagGap;
       return;
     }
     Forget(cloud.end_ns);
@@ -91,7 +92,9 @@ void Odometry::Forget(std::int64_t until_ns) {
 }
 
 /// Whether there is something that points can agree with.
-bool Odometry::HasMap() const { return support_.was_supported() || map_.size() >= kFewestToBegin; }
+bool Odometry::HasMap() const {
+  return support_.was_supported() || map_.finest().size() >= kFewestToBegin;
+}
 
 /// A map of one interval alone, and a window that begins where it ends.
 void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau,
@@ -137,16 +140,19 @@ void Odometry::Step(SegmentCloud cloud) {
   WindowStatistics statistics;
   statistics.restless = RestlessStep(window_.segments.back().cloud);
   AssociateAndSolve(&statistics);
-  statistics.SetCorrection(predicted.back(), window_.segments.back().T_world_end);
+  statistics.correction = MeasureStep(predicted.back(), window_.segments.back().T_world_end);
   if (IsBlind()) {
     TakeBackAndSearch(predicted);
     return;
   }
-  NoteSupport();
   window_.is_believed = IsBelievable(statistics, window_);
-  if (!window_.is_believed) Revert(predicted, &window_);
   SideTask learning(&threads_);
-  if (window_.is_believed) learning.Start([&] { Learn(predicted.back()); });
+  if (window_.is_believed) {
+    NoteSupport();
+    learning.Start([&] { Learn(predicted.back()); });
+  } else {
+    Revert(predicted, &window_);
+  }
   Describe(window_, &statistics);
   Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
   learning.Wait();

@@ -27,11 +27,13 @@ namespace trajlo {
 ///   odometry.Finish();
 ///   odometry.trajectory().At(t_ns);
 ///
-/// The world frame is the body frame at the first point.
+/// The world frame is the body frame at the first pose of the trajectory.
 class Odometry {
  public:
   explicit Odometry(const OdometryOptions& options,
                     const WindowSolverFactory& make_solver = MakeWindowSolver);
+  Odometry(const Odometry&) = delete;
+  Odometry& operator=(const Odometry&) = delete;
 
   /// Takes a scan as it was recorded, whatever its stamp (see ScanSequencer), and processes every
   /// window that it completes.

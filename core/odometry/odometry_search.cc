@@ -56,7 +56,7 @@ void Odometry::BeginSearch() {
 void Odometry::Search(bool is_last) {
   const ReturnSweep sweep = search_->Look(map_, &threads_);
   const LastSeen& last = search_->last();
-  const double unseen_s = Seconds(sweep.cloud.begin_ns - last.t_ns);
+  const double unseen_s = Seconds(sweep.cloud.begin_ns - last.supported_until_ns);
   if (sweep.T_world_begin && IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s)) {
     Resume(sweep);
   } else if (!support_.was_supported()) {
@@ -86,8 +86,8 @@ void Odometry::Resume(const ReturnSweep& sweep) {
     window_.begin_velocity = sweep.tau / sweep.cloud.Duration_s();
   } else {
     const LastSeen& last = search_->last();
-    window_.begin_velocity =
-        Minus(T_world_begin, last.T_world_body) / Seconds(sweep.cloud.begin_ns - last.t_ns);
+    window_.begin_velocity = Minus(T_world_begin, last.T_world_body) /
+                             Seconds(sweep.cloud.begin_ns - last.supported_until_ns);
     EnterMap(sweep.cloud, T_world_begin, T_world_begin, &threads_, &map_);
     segments.clear();
   }
@@ -100,8 +100,8 @@ void Odometry::Resume(const ReturnSweep& sweep) {
 /// The place is not found. What comes now is a recording by itself, placed where the body would be
 /// if it had gone on as it did.
 void Odometry::GetLost(const ReturnSweep& sweep) {
-  SettleWindow(sweep.cloud.begin_ns);
   if (!lost_at_ns_) lost_at_ns_ = support_.supported_until_ns() + 1;
+  SettleWindow(sweep.cloud.begin_ns);
   map_ = MapPyramid(options_.map);
   BeginMap(sweep.cloud, search_->Predict(sweep.cloud.begin_ns), sweep.tau, kFlagGap | kFlagLost);
   search_.reset();

@@ -27,7 +27,6 @@ using Names = std::vector<std::pair<const char*, Value>>;
 //     d(OptionFor::kUsers, "segments", segments, Range<int>{1, 100}, "Segments that are ...");
 //   }
 //
-// From it come the YAML keys, --set, the checks, `--show_config` and the tables in
-// config/README.md.
+// From it come the YAML keys, --set, the checks and `--show_config`.
 
 }  // namespace trajlo

@@ -22,8 +22,8 @@ bool IsBelievable(const WindowStatistics& statistics, const Window& window) {
     const double duration_s = window.segments[static_cast<std::size_t>(k)].Duration_s();
     if (!IsWithinReach(window.Pose(k), window.Pose(k + 1), duration_s)) return false;
   }
-  return statistics.is_finite && statistics.correction_m <= kMaxCorrection_m &&
-         statistics.correction_rad <= kMaxCorrection_rad;
+  return statistics.is_finite && statistics.correction.translation_m <= kMaxCorrection_m &&
+         statistics.correction.rotation_rad <= kMaxCorrection_rad;
 }
 
 bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s) {

@@ -18,7 +18,7 @@ bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double dura
 void Revert(const std::vector<SE3>& poses, Window* window);
 
 /// Sets the flags of a window from how its solve went and from how its points hold it. Of its
-/// segments the newest is looked at: its spurious information is found. After Describe.
+/// segments the newest is looked at: its spurious information is found.
 void Judge(const LostOptions& options, double points_per_error, Window* window,
            WindowStatistics* statistics);
 

@@ -10,11 +10,13 @@ namespace {
 
 /// Of all points, so many must be on the map before the others extend it.
 constexpr double kToExtendMap = 0.5;
-/// And so many before the place is trusted: nine of ten are where the map has grown at the right
-/// place. Where it has grown at a wrong one, much of what is seen next is not on it.
+/// And so many before the place is trusted. Where the map has grown at the right place, it is nine
+/// of ten; where it has grown at a wrong one, much of what is seen next is not on it.
 constexpr double kToTrust = 0.75;
 /// Of the usual agreement: nearly all windows at the right place have so much.
 constexpr double kAsUsual = 0.95;
+/// Where single windows have less, the points contradict the map.
+constexpr double kNoContradiction = 0.85;
 /// The usual is a mean over about so many windows.
 constexpr double kWindows = 20.0;
 /// What three standard deviations of an unseen motion may be without a doubt: points are still near
@@ -53,7 +55,8 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
     usual_agreement_ = usual + (statistics.agreement - usual) / kWindows;
   } else if (statistics.has_converged && std::all_of(window.segments.begin(), window.segments.end(),
                                                      [&](const Segment& segment) {
-                                                       return Agrees(window, segment, kToTrust);
+                                                       return Agrees(window, segment, kToTrust,
+                                                                     kAsUsual);
                                                      })) {
     flags_ = 0;
     causes_ = 0;
@@ -66,15 +69,19 @@ bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const 
 }
 
 bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
-  // A body that was never trusted has little of a map that could be spoilt. And one that slid along
-  // a direction which its points leave open drifts, whatever its map.
-  const bool may_be_elsewhere = (causes_ & ~unsigned{kFlagDegenerate}) != 0;
-  return !may_be_elsewhere || !usual_agreement_ || Agrees(window, segment, kToExtendMap);
+  // A body that was never trusted has little of a map that could be spoilt.
+  if (causes_ == 0 || !usual_agreement_) return true;
+  // One that slid along a direction which its points left open sees what is new to the map. But
+  // what the map has must not be contradicted.
+  const bool has_slid = causes_ == kFlagDegenerate;
+  return has_slid ? Agrees(window, segment, 0.0, kNoContradiction)
+                  : Agrees(window, segment, kToExtendMap, kAsUsual);
 }
 
-bool DoubtWatch::Agrees(const Window& window, const Segment& segment, double on_map) const {
+bool DoubtWatch::Agrees(const Window& window, const Segment& segment, double on_map,
+                        double of_usual) const {
   const MapAgreement agreement = AgreementOf(window, segment);
-  return agreement.on_map >= on_map && agreement.worst >= kAsUsual * usual_agreement_.value_or(1.0);
+  return agreement.on_map >= on_map && agreement.worst >= of_usual * usual_agreement_.value_or(1.0);
 }
 
 }  // namespace trajlo

@@ -15,7 +15,7 @@ namespace trajlo {
 /// on planes to which it does not belong, and a map that grew there would prove it right. So poses
 /// stay flagged, and the map does not grow, until the points agree with it in all directions as
 /// well as they did before. Where all that was wrong is that the points left a direction open, the
-/// map grows: a fast body would soon be out of it.
+/// map grows with what is new to it: a fast body would soon be out of it.
 class DoubtWatch {
  public:
   /// After `window` was judged; `density` is that of the acceleration, see MotionPrior.
@@ -28,7 +28,8 @@ class DoubtWatch {
 
  private:
   bool MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const;
-  bool Agrees(const Window& window, const Segment& segment, double on_map) const;
+  /// So large a share of all points is on the map, and of the usual agreement there is so much.
+  bool Agrees(const Window& window, const Segment& segment, double on_map, double of_usual) const;
 
   unsigned flags_ = 0;
   unsigned causes_ = 0;  ///< All flags since the doubt began.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/loss_watch.h"
 
+#include <algorithm>
+#include <functional>
+
 namespace trajlo {
 namespace {
 
@@ -40,18 +43,18 @@ bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   const bool is_unsettled = (window.flags & kFlagReverted) != 0 || window.IsRestless();
   const bool is_doubtful = is_unsettled && (window.flags & ~kNoDoubt) != 0;
   recent_.push_back({window.end_ns, is_unsettled, is_doubtful});
-  unsettled_ += is_unsettled ? 1 : 0;
-  doubtful_ += is_doubtful ? 1 : 0;
   const std::int64_t begin_ns = window.end_ns - Nanoseconds(kSpan_s);
   while (recent_.front().end_ns < begin_ns) {
-    unsettled_ -= recent_.front().is_unsettled ? 1 : 0;
-    doubtful_ -= recent_.front().is_doubtful ? 1 : 0;
     recent_.pop_front();
     span_is_full_ = true;
   }
-  const auto windows = static_cast<double>(recent_.size());
-  return span_is_full_ && (static_cast<double>(unsettled_) > kMaxUnsettledShare * windows ||
-                           static_cast<double>(doubtful_) > kMaxDoubtfulShare * windows);
+  return span_is_full_ && (Share(&Window::is_unsettled) > kMaxUnsettledShare ||
+                           Share(&Window::is_doubtful) > kMaxDoubtfulShare);
+}
+
+double LossWatch::Share(bool Window::*what) const {
+  const auto those = std::count_if(recent_.begin(), recent_.end(), std::mem_fn(what));
+  return static_cast<double>(those) / static_cast<double>(recent_.size());
 }
 
 }  // namespace trajlo

@@ -48,12 +48,11 @@ class LossWatch {
   };
   bool TooFewInliers(const WindowStatistics& window);
   bool TooFewSettled(const WindowStatistics& window);
+  double Share(bool Window::*what) const;
 
   LostOptions options_;
   std::optional<std::int64_t> few_since_ns_;
   std::deque<Window> recent_;  ///< Those of the last three seconds.
-  std::size_t unsettled_ = 0;  ///< Of these.
-  std::size_t doubtful_ = 0;
   bool span_is_full_ = false;
 };
 

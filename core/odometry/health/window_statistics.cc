@@ -11,7 +11,7 @@ constexpr double kShortSegment_s = 0.03;
 
 }  // namespace
 
-StepTolerance RestlessStep(const SegmentCloud& newest) {
+StepSize RestlessStep(const SegmentCloud& newest) {
   const double seen_s = newest.IsInstant() ? 0.0 : newest.Duration_s();
   const double longer = std::max(1.0, seen_s / kShortSegment_s);
   const double factor = longer * std::sqrt(longer);
@@ -22,28 +22,19 @@ void WindowStatistics::Add(const SolveSummary& solve, const SolverOptions& optio
   ++rounds;
   iterations += solve.iterations;
   rejected_steps += solve.rejected_steps;
-  cost_registration = solve.cost.registration;
-  cost_motion = solve.cost.motion;
-  cost_prior = solve.cost.prior;
+  cost = solve.cost;
   // Steps shrink by a constant factor at least, which the last two of them show.
   StepSize next = solve.step;
   if (rounds > 1) {
-    next.translation_m *= std::min(1.0, solve.step.translation_m / last_step_m);
-    next.rotation_rad *= std::min(1.0, solve.step.rotation_rad / last_step_rad);
+    next.translation_m *= std::min(1.0, solve.step.translation_m / last_step.translation_m);
+    next.rotation_rad *= std::min(1.0, solve.step.rotation_rad / last_step.rotation_rad);
   }
   if (!next.IsWithin(restless)) restless_rounds = rounds;
-  last_step_m = solve.step.translation_m;
-  last_step_rad = solve.step.rotation_rad;
+  last_step = solve.step;
   is_finite = solve.finite;
   // Where every step was rejected, the window is as unsolved as before.
   has_converged =
       next.IsWithin(options.step_tolerance) && (solve.iterations > 0 || solve.rejected_steps == 0);
-}
-
-void WindowStatistics::SetCorrection(const SE3& T_world_predicted, const SE3& T_world_estimated) {
-  const StepSize correction = MeasureStep(T_world_predicted, T_world_estimated);
-  correction_m = correction.translation_m;
-  correction_rad = correction.rotation_rad;
 }
 
 void Describe(const Window& window, WindowStatistics* statistics) {

@@ -28,11 +28,11 @@ constexpr unsigned kAllFlags[] = {
 
 /// A window that moves by more than this in a round has not settled, whatever tolerance the options
 /// ask for.
-constexpr StepTolerance kRestlessStep = {5e-3, 1e-3};
+constexpr StepSize kRestlessStep = {5e-3, 1e-3};
 /// The same for a newest segment of any length. Beyond 0.03 s it is more by Δt^1.5, as white
 /// acceleration takes a body off its course: what the points saw on the way lies on no straight
 /// motion, and some planes change in every round, at the right place, too.
-StepTolerance RestlessStep(const SegmentCloud& newest);
+StepSize RestlessStep(const SegmentCloud& newest);
 
 /// One line of windows.csv: what happened in one sliding-window solve.
 struct WindowStatistics {
@@ -46,26 +46,22 @@ struct WindowStatistics {
   int inliers = 0;   ///< Those with a plane in the last round.
   int searched = 0;  ///< Map queries over all rounds; the others kept their plane.
   int rounds = 0;    ///< associate ↔ solve rounds.
-  StepTolerance restless = kRestlessStep;
+  StepSize restless = kRestlessStep;
   int restless_rounds = 0;  ///< After so many of them, a larger step than that was to come.
   int iterations = 0;       ///< Solver steps over all rounds.
   int rejected_steps = 0;   ///< Those that Ceres did not take because they raise the cost.
-  double cost_registration = 0.0;
-  double cost_motion = 0.0;
-  double cost_prior = 0.0;
+  WindowCost cost;          ///< At the solution.
   /// Spectral densities of the acceleration for the next window: see MotionPrior.
   double translation_density_m2_s3 = 0.0;
   double rotation_density_rad2_s3 = 0.0;
   /// How far the points moved the newest pose from where the motion prior had put it.
-  double correction_m = 0.0;
-  double correction_rad = 0.0;
+  StepSize correction;
   double agreement = 0.0;  ///< MapAgreement::worst, of the newest segment.
   /// What the points tell about the direction that they hold least (1/m²), and that direction, in
   /// the body frame: see WindowCondition.
   double smallest_eigenvalue = 0.0;
   Vector6d weak_direction = Vector6d::Zero();
-  double last_step_m = 0.0;
-  double last_step_rad = 0.0;
+  StepSize last_step;
   double milliseconds_segment = 0.0;
   double milliseconds_associate = 0.0;
   double milliseconds_solve = 0.0;
@@ -77,7 +73,6 @@ struct WindowStatistics {
 
   /// One more round of the window.
   void Add(const SolveSummary& solve, const SolverOptions& options);
-  void SetCorrection(const SE3& T_world_predicted, const SE3& T_world_estimated);
 
   /// A window that follows the scene settles within five rounds, but for the first ones of a jerk.
   /// Unlike has_converged, this does not depend on the tolerance and the rounds of the options.

@@ -6,18 +6,16 @@ MapLevel::MapLevel(const MapOptions& options, const PlaneFitOptions& plane)
     : plane_(plane),
       cell_size_(0.5 * options.voxel_size_m),
       inverse_cell_size_(1.0 / cell_size_),
-      points_(options.voxel_size_m, options.min_point_spacing_m, options.radius_m,
-              PlaneFitOptions::kMinNeighbors) {
+      points_(options.voxel_size_m, options.min_point_spacing_m, options.radius_m) {
   if (options.kind == MapKind::kKdTree) tree_.emplace();
   if (options.shared_planes) cells_.emplace();
 }
 
-void MapLevel::Insert(const std::vector<Eigen::Vector3d>& points_world,
-                      std::vector<Eigen::Vector3d>* accepted) {
-  const std::size_t before = accepted->size();
-  points_.Insert(points_world, accepted);
-  if (tree_) tree_->Add({accepted->begin() + static_cast<std::ptrdiff_t>(before), accepted->end()});
+std::vector<Eigen::Vector3d> MapLevel::Insert(const std::vector<Eigen::Vector3d>& points_world) {
+  std::vector<Eigen::Vector3d> accepted = points_.Insert(points_world);
+  if (tree_) tree_->Add(accepted);
   if (cells_) cells_->Resize(points_.site_capacity());
+  return accepted;
 }
 
 void MapLevel::RemoveFar(const Eigen::Vector3d& center_world) {

@@ -68,12 +68,7 @@ void MapPyramid::Insert(const std::vector<Eigen::Vector3d>& points_world) {
   ++version_;
   // What a level has no use for, because it has points there, is hardly of use for coarser ones.
   std::vector<Eigen::Vector3d> offered = points_world;
-  std::vector<Eigen::Vector3d> accepted;
-  for (MapLevel& level : levels_) {
-    accepted.clear();
-    level.Insert(offered, &accepted);
-    offered.swap(accepted);
-  }
+  for (MapLevel& level : levels_) offered = level.Insert(offered);
 }
 
 void MapPyramid::RemoveFar(const Eigen::Vector3d& center_world) {
@@ -159,12 +154,6 @@ Plane MapPyramid::FindPlane(const PlaneQuery& query) const {
   Plane plane;
   FindPlanes(&query, 1, &plane);
   return plane;
-}
-
-std::size_t MapPyramid::size() const {
-  std::size_t points = 0;
-  for (const MapLevel& level : levels_) points += level.points().size();
-  return points;
 }
 
 }  // namespace trajlo

@@ -72,7 +72,7 @@ class MapPyramid {
   }
   void RemoveFar(const Eigen::Vector3d& center_world);
 
-  /// Within a cell of the finest level, all levels have the same planes.
+  /// Within a cell of the finest level, all levels have the same planes, if they are shared.
   VoxelKey CellOf(const Eigen::Vector3d& place_world) const {
     return levels_.front().CellOf(place_world);
   }
@@ -88,8 +88,6 @@ class MapPyramid {
   Plane FindPlane(const PlaneQuery& query) const;
 
   const VoxelHashMap& finest() const { return levels_.front().points(); }
-  /// Points of all levels.
-  std::size_t size() const;
 
  private:
   struct Batch;

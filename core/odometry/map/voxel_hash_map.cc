@@ -22,18 +22,17 @@ struct VoxelHashMap::Candidates {
   float squared_distance[kMax], x[kMax], y[kMax], z[kMax];
 };
 
-VoxelHashMap::VoxelHashMap(double voxel_size_m, double min_point_spacing_m, double radius_m,
-                           int points_of_site)
+VoxelHashMap::VoxelHashMap(double voxel_size_m, double min_point_spacing_m, double radius_m)
     : voxel_size_(voxel_size_m),
       inverse_size_(1.0 / voxel_size_m),
       spacing_(min_point_spacing_m),
-      radius_(radius_m),
-      points_of_site_(static_cast<std::uint32_t>(points_of_site)) {}
+      radius_(radius_m) {}
 
 std::uint32_t VoxelHashMap::NewBlock(const VoxelKey& key) {
   auto block = static_cast<std::uint32_t>(blocks_.size());
   if (free_blocks_.empty()) {
-    if (block == kNoNext) throw std::length_error("the map holds more than 16 million voxels");
+    if (block == kNoNext)
+      throw std::length_error("the map holds more than 16 million blocks of four points");
     blocks_.emplace_back();
   } else {
     block = free_blocks_.back();
@@ -80,7 +79,7 @@ void VoxelHashMap::Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eige
 
 void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
   ++entry->points_around;
-  if (entry->points_around != points_of_site_) return;
+  if (entry->points_around != kPointsOfSite) return;
   if (free_sites_.empty()) {
     if (site_count_ == VoxelIndex::kNoSite) {
       throw std::length_error("the map holds more than 16 million voxels");
@@ -92,8 +91,9 @@ void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
   }
 }
 
-void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
-                          std::vector<Eigen::Vector3d>* accepted) {
+std::vector<Eigen::Vector3d> VoxelHashMap::Insert(
+    const std::vector<Eigen::Vector3d>& points_world) {
+  std::vector<Eigen::Vector3d> accepted;
   // In steps, each of which fetches ahead what the next one reads.
   constexpr std::size_t kBatch = 32;
   std::array<VoxelKey, kBatch> keys;
@@ -116,7 +116,7 @@ void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
       const VoxelIndex::Slot slot = around[i][0];
       if (!HasRoomFor(index_[slot].block, p)) continue;
       Append(slot, keys[i], p);
-      if (accepted != nullptr) accepted->push_back(point);
+      accepted.push_back(point);
       around[placed][0] = slot;
       for (std::size_t f = 0; f < 6; ++f) {
         around[placed][1 + f] = index_.FindOrAddBeside(keys[i], slot, keys[i] + kFaces[f]);
@@ -128,6 +128,7 @@ void VoxelHashMap::Insert(const std::vector<Eigen::Vector3d>& points_world,
       for (const VoxelIndex::Slot slot : around[i]) AddAround(&index_[slot]);
     }
   }
+  return accepted;
 }
 
 void VoxelHashMap::DropRefused(std::vector<Eigen::Vector3d>* points_world) const {
@@ -172,7 +173,7 @@ void VoxelHashMap::DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* ch
     entry.points_around -= points;
     if (entry.site != VoxelIndex::kNoSite) {
       changed->push_back(entry.site);
-      if (entry.points_around < points_of_site_) {
+      if (entry.points_around < kPointsOfSite) {
         free_sites_.push_back(entry.site);
         entry.site = VoxelIndex::kNoSite;
       }

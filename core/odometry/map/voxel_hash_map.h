@@ -22,16 +22,16 @@ class VoxelHashMap {
  public:
   /// The paper's bound.
   static constexpr int kMaxPointsPerVoxel = 20;
+  /// Around a site, at least.
+  static constexpr std::uint32_t kPointsOfSite = 5;
 
   /// A point nearer than `min_point_spacing_m` to another of its voxel is not added. Voxels farther
-  /// than `radius_m` from the sensor are dropped. A site has `points_of_site` points around it.
-  VoxelHashMap(double voxel_size_m, double min_point_spacing_m, double radius_m,
-               int points_of_site);
+  /// than `radius_m` from the sensor are dropped.
+  VoxelHashMap(double voxel_size_m, double min_point_spacing_m, double radius_m);
 
-  /// Adds points in the given order, each if its voxel has room and no point too near. Those added
-  /// are appended to `accepted` unless it is null.
-  void Insert(const std::vector<Eigen::Vector3d>& points_world,
-              std::vector<Eigen::Vector3d>* accepted = nullptr);
+  /// Adds points in the given order, each if its voxel has room and no point too near. Returns
+  /// those added.
+  std::vector<Eigen::Vector3d> Insert(const std::vector<Eigen::Vector3d>& points_world);
 
   /// Removes from `points_world` what has no room: Insert() would not add it now, nor after others.
   void DropRefused(std::vector<Eigen::Vector3d>* points_world) const;
@@ -81,7 +81,6 @@ class VoxelHashMap {
   static void TakeNearest(const Candidates& candidates, int wanted, Neighbors* neighbors);
 
   double voxel_size_, inverse_size_, spacing_, radius_;
-  std::uint32_t points_of_site_;
   VoxelIndex index_;
   std::vector<Block, HugePageAllocator<Block>> blocks_;
   std::vector<std::uint32_t> free_blocks_, free_sites_;

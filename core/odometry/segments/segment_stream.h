@@ -22,6 +22,8 @@ class SegmentStream {
 
   /// `threads` must outlive it.
   SegmentStream(const SegmenterOptions& options, ThreadPool* threads, HandOn hand_on);
+  SegmentStream(const SegmentStream&) = delete;
+  SegmentStream& operator=(const SegmentStream&) = delete;
 
   void Add(const LidarScan& scan);
   /// No further scans: hands on all that is left.

@@ -113,7 +113,7 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
       ++counts_.too_late;
       continue;
     }
-    if (point.t_ns > *end_ns_ + max_gap_ns_) {
+    if (point.t_ns > std::max(*end_ns_, first_ns) + max_gap_ns_) {
       ++counts_.wrong_time;
       continue;
     }

@@ -61,11 +61,12 @@ struct SegmenterOptions {
 /// Cuts the stream of scans into segments, whatever the length of a scan.
 ///
 /// Segment 0 starts at the first point and lasts `first_interval_s`; the others follow without
-/// holes. A segment is handed out when every LiDAR has passed its end. Where no scan has point
-/// times (motion-corrected ones) each becomes a segment, from the previous stamp to its own, with
-/// alpha = 1 for every point: the discrete mode of the paper. The first of these is an instant,
-/// which only fills the map. After a gap, such a segment is as long as the one before it. Every
-/// other segment lasts a millisecond at least: scans that are closer share one.
+/// holes. A segment is handed out when every LiDAR has passed its end, but for one that is silent
+/// or late. Where no scan has point times (motion-corrected ones) each becomes a segment, from the
+/// previous stamp to its own, with alpha = 1 for every point: the discrete mode of the paper. The
+/// first of these is an instant, which only fills the map. After a gap, such a segment is as long
+/// as the one before it. Every other segment lasts a millisecond at least: scans that are closer
+/// share one.
 ///
 /// Times must be sane, as ScanSequencer makes them.
 class Segmenter {
@@ -73,7 +74,7 @@ class Segmenter {
   explicit Segmenter(const SegmenterOptions& options);
 
   void AddScan(const LidarScan& scan);
-  /// No further scans: the segments still open are completed, the last one as far as it is filled.
+  /// No further scans: the segments still open are completed, the last one with what it has.
   void Finish();
   /// The next segment, oldest first; empty until it is complete.
   std::optional<SegmentCloud> Next();

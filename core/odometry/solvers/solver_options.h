@@ -12,7 +12,10 @@ struct SolverOptions {
   SolverKind kind = SolverKind::kCeres;
   int max_rounds = 20;
   int iterations_per_round = 1;
-  StepTolerance step_tolerance;
+  /// Control poses that moved by less are where they were: planes and linearisations are kept, and
+  /// rounds end where the next step would be smaller. What is left to go is a fraction of the last
+  /// step, and the windows that follow solve for the same poses again.
+  StepSize step_tolerance = {5e-3, 1e-3};
 
   template <typename Describer>
   void Describe(Describer& d) {

@@ -25,8 +25,7 @@ struct SolveSummary {
   double linear_solve_s = 0.0;  ///< Time spent on the linear equations.
 };
 
-/// Solves a window with fixed associations. All solvers minimise the same energy, so they end at
-/// the same optimum.
+/// Solves a window with fixed associations. All solvers minimise the same energy.
 class WindowSolver {
  public:
   virtual ~WindowSolver() = default;

@@ -65,7 +65,7 @@ class Hypothesis {
     }
     MapPyramid map(map_options);
     map.Insert(first_half);
-    SegmentAssociation().Associate(second_half, cloud.lidar_origins_body_m, SE3(), T_end_, map, {},
+    SegmentAssociation().Associate(second_half, cloud.lidar_origins_body_m, SE3(), T_end_, map,
                                    threads, &points_with_plane_);
   }
 
@@ -134,7 +134,7 @@ class FirstInterval {
   /// The motion near `tau` by rounds of registration; the first ones see coarsely.
   Vector6d Refine(Vector6d tau, int first_round, int last_round) const {
     for (int round = first_round; round < last_round; ++round) {
-      // 4, 4, 2, 2, 1, 1, ... times the map's voxels, plane thickness and kernel.
+      // 4, 4, 2, 2, 1, 1, ... times the map's voxels and the kernel.
       const double coarse = std::max(1.0, 4.0 / (1 << (round / 2)));
       const RegistrationNormalEquations equations = Linearize(tau, coarse);
       Vector6d prior = Vector6d::Constant(1.0 / (kPriorSigmaM * kPriorSigmaM));

@@ -27,8 +27,7 @@ struct InitialMotion {
 /// its first half, which move with the same tau. A wrong tau blurs the first half by a third of
 /// what it displaces the second, so each round leaves about a third of the error. The voxels start
 /// coarse and shrink. Where one direction is held weakly, the search is started at many speeds
-/// along it: on a motorway the ground agrees with all of them. `registration` gives the robust
-/// kernel.
+/// along it: on a motorway the ground agrees with all of them.
 InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
                                     const RegistrationOptions& registration, ThreadPool* threads);
 

@@ -171,7 +171,7 @@ class Hypothesis {
 
   void Associate() {
     association_.Associate(sweep_.registration_points, sweep_.lidar_origins_body_m, T_begin_,
-                           T_begin_ * T_begin_end_, map_, {}, threads_, &points_);
+                           T_begin_ * T_begin_end_, map_, threads_, &points_);
   }
 
   static bool IsSame(const RegistrationPoint& a, const SegmentPoint& b) {

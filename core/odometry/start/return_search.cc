@@ -38,14 +38,15 @@ double Reach(double density, double acceleration, double unseen_s) {
 void ReturnSearch::Add(SegmentCloud segment) {
   if (segment.is_gap) segments_.clear();
   if (segment.is_gap || (segments_.empty() && segment.map_points.empty())) return;
-  searched_s_ += segment.Duration_s();
+  if (!segment.map_points.empty()) searched_s_ += segment.Duration_s();
   since_look_s_ += segment.Duration_s();
   if (segment.IsInstant()) segments_.clear();
   segments_.push_back(std::move(segment));
   // Only the newest first_interval_s: over longer the motion is no constant twist.
   const auto longest_ns = std::llround(1e9 * options_.segmenter.first_interval_s);
   while (segments_.size() > 1 &&
-         segments_.back().end_ns - segments_.front().begin_ns > longest_ns) {
+         (segments_.back().end_ns - segments_.front().begin_ns > longest_ns ||
+          segments_.front().map_points.empty())) {
     segments_.erase(segments_.begin());
   }
 }

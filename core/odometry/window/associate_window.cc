@@ -6,7 +6,7 @@
 
 namespace trajlo {
 
-int AssociateWindow(const MapPyramid& map, const StepTolerance& tolerance, ThreadPool* threads,
+int AssociateWindow(const MapPyramid& map, const StepSize& tolerance, ThreadPool* threads,
                     Window* window) {
   struct Chunk {
     SegmentAssociation* association;

@@ -18,7 +18,7 @@ constexpr std::size_t kBatch = MapPyramid::kMaxBatch;
 std::size_t SegmentAssociation::Begin(const std::vector<SegmentPoint>& points,
                                       const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
                                       const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
-                                      const StepTolerance& tolerance) {
+                                      const StepSize& tolerance) {
   const bool is_first = cells_.empty();
   if (!is_first && AreNear(T_begin, T_end, T_begin_, T_end_, tolerance)) return 0;
   T_begin_ = T_begin;
@@ -85,9 +85,8 @@ int SegmentAssociation::Finish(std::vector<RegistrationPoint>* associated) {
 int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
                                   const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
                                   const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
-                                  const StepTolerance& tolerance, ThreadPool* threads,
-                                  std::vector<RegistrationPoint>* associated) {
-  const std::size_t chunks = Begin(points, lidar_origins_body_m, T_begin, T_end, map, tolerance);
+                                  ThreadPool* threads, std::vector<RegistrationPoint>* associated) {
+  const std::size_t chunks = Begin(points, lidar_origins_body_m, T_begin, T_end, map, {});
   threads->ParallelFor(chunks, [&](std::size_t i) { Look(i); });
   return Finish(associated);
 }

@@ -26,18 +26,18 @@ class SegmentAssociation {
   /// many chunks: none where the poses are within `tolerance` of where they were.
   std::size_t Begin(const std::vector<SegmentPoint>& points,
                     const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const SE3& T_begin,
-                    const SE3& T_end, const MapPyramid& map, const StepTolerance& tolerance);
+                    const SE3& T_end, const MapPyramid& map, const StepSize& tolerance);
   /// Every chunk once, in any order; several threads may.
   void Look(std::size_t chunk);
   /// `associated` receives the points that have a plane, in the order of the points; it stays as it
   /// is where nothing was looked up. Returns the number of look-ups.
   int Finish(std::vector<RegistrationPoint>* associated);
 
-  /// The three in a row.
+  /// The three in a row, without a tolerance.
   int Associate(const std::vector<SegmentPoint>& points,
                 const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const SE3& T_begin,
-                const SE3& T_end, const MapPyramid& map, const StepTolerance& tolerance,
-                ThreadPool* threads, std::vector<RegistrationPoint>* associated);
+                const SE3& T_end, const MapPyramid& map, ThreadPool* threads,
+                std::vector<RegistrationPoint>* associated);
 
  private:
   /// A LiDAR on its way through a segment.

@@ -15,7 +15,7 @@ namespace trajlo {
 /// most of the window stands nearly still, and only the newest segments are evaluated.
 class RegistrationEvaluator {
  public:
-  explicit RegistrationEvaluator(ThreadPool* threads, const StepTolerance& tolerance = {0.0, 0.0})
+  explicit RegistrationEvaluator(ThreadPool* threads, const StepSize& tolerance = {})
       : threads_(threads), tolerance_(tolerance) {}
 
   /// H, g and cost of every segment at `poses`; without `jacobians` only the cost. Keeps the
@@ -32,7 +32,7 @@ class RegistrationEvaluator {
     SegmentLinearizer::Sum sum;
   };
   ThreadPool* threads_;
-  StepTolerance tolerance_;
+  StepSize tolerance_;
   std::vector<Chunk> chunks_;
 };
 

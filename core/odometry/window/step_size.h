@@ -8,20 +8,12 @@
 
 namespace trajlo {
 
-/// Control poses that moved by less are where they were: planes and linearisations are kept, and
-/// rounds end where the next step would be smaller. What is left to go is a fraction of the last
-/// step, and the windows that follow solve for the same poses again.
-struct StepTolerance {
-  double translation_m = 5e-3;
-  double rotation_rad = 1e-3;
-};
-
 /// How far control poses moved, at most.
 struct StepSize {
   double translation_m = 0.0;
   double rotation_rad = 0.0;
 
-  bool IsWithin(const StepTolerance& tolerance) const {
+  bool IsWithin(const StepSize& tolerance) const {
     return translation_m < tolerance.translation_m && rotation_rad < tolerance.rotation_rad;
   }
 };
@@ -43,7 +35,7 @@ inline StepSize MeasureStep(const std::vector<SE3>& start, const std::vector<SE3
 
 /// The way of a segment from one pair of control poses to another.
 inline bool AreNear(const SE3& begin, const SE3& end, const SE3& other_begin, const SE3& other_end,
-                    const StepTolerance& tolerance) {
+                    const StepSize& tolerance) {
   return MeasureStep(begin, other_begin).IsWithin(tolerance) &&
          MeasureStep(end, other_end).IsWithin(tolerance);
 }

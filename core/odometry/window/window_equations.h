@@ -46,8 +46,8 @@ struct WindowNormalEquations {
            const Eigen::Ref<const Eigen::VectorXd>& r);
 };
 
-/// Adds prior, motion and registration at `poses`; `registration` has one entry a segment, at the
-/// same poses.
+/// The sum of prior, motion and registration at `poses`; `registration` has one entry a segment, at
+/// the same poses.
 void AssembleWindow(const Window& window, const std::vector<SE3>& poses,
                     const std::vector<RegistrationNormalEquations>& registration,
                     WindowNormalEquations* equations);

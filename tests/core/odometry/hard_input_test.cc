@@ -76,6 +76,20 @@ TEST(Odometry, BeginsWhereItSeesSomethingForLong) {
   }
 }
 
+/// Fifteen points are no map, however many levels the map has.
+TEST(Odometry, DoesNotBeginAtAHandfulOfPoints) {
+  SyntheticWorld world;
+  const RunResult run = RunOn(world, RoomOptions(), 20, [](int i, LidarScan* scan) {
+    if (i > 2) return;
+    for (std::size_t k = 0; k < scan->points.size(); ++k) {
+      if (k % (scan->points.size() / 5) != 0) scan->points[k].xyz_m.setZero();
+    }
+  });
+  ASSERT_FALSE(run.odometry->trajectory().empty());
+  const auto& first = run.odometry->trajectory().poses().front();
+  EXPECT_GT(first.t_ns, world.start_ns + 290'000'000);
+}
+
 TEST(Odometry, WrongStampsNeitherEndTheRunNorMoveIt) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;

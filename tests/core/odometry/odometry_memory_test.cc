@@ -48,12 +48,13 @@ TEST(OdometryMemory, LapsOfTheSameLoopAddNothing) {
   };
   drive(0, 2);
   const double before_MB = Resident_MB();
-  const std::size_t points_before = odometry.map().size();
+  const std::size_t points_before = odometry.map().finest().size();
   constexpr int kLaps = 6;
   drive(2, kLaps);
   const double growth_MB = Resident_MB() - before_MB;
   ASSERT_FALSE(odometry.lost_at_ns());
-  EXPECT_LT(static_cast<double>(odometry.map().size()), 1.3 * static_cast<double>(points_before));
+  EXPECT_LT(static_cast<double>(odometry.map().finest().size()),
+            1.3 * static_cast<double>(points_before));
   // A tenth of what the points of the scans would take.
   constexpr double kScans_MB = 1e-6 * kLaps * kSweepsOfALap * 16 * 180 * sizeof(LidarPoint);
   EXPECT_LT(growth_MB, 0.1 * kScans_MB);

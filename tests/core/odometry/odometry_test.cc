@@ -85,7 +85,7 @@ TEST(Odometry, GivesTheSameBytesForAnyNumberOfThreads) {
       const double* const pose = a[i].T_world_body.data();
       EXPECT_TRUE(std::equal(pose, pose + 7, b[i].T_world_body.data())) << i;
     }
-    EXPECT_EQ(several.odometry->map().size(), one.odometry->map().size());
+    EXPECT_EQ(several.odometry->map().finest().size(), one.odometry->map().finest().size());
   }
 }
 
@@ -178,7 +178,7 @@ TEST(Odometry, DropsTheMapThatItHasLeft) {
   const RunResult all = RunOn(world, options, 30);
   options.map.finest.radius_m = 6.0;
   const RunResult near = RunOn(world, options, 30);
-  EXPECT_LT(near.odometry->map().size(), all.odometry->map().size() * 3 / 4);
+  EXPECT_LT(near.odometry->map().finest().size(), all.odometry->map().finest().size() * 3 / 4);
 }
 
 TEST(Odometry, KeepsItsOwnCopyOfTheOptions) {

@@ -51,7 +51,7 @@ TEST(Belief, ANewestPoseFarFromItsPredictionIsNotBelieved) {
     tau[0] = x_m;
     tau[5] = yaw_rad;
     WindowStatistics statistics;
-    statistics.SetCorrection(predicted, predicted * se3::Exp(tau));
+    statistics.correction = MeasureStep(predicted, predicted * se3::Exp(tau));
     return IsBelievable(statistics, Window());
   };
   EXPECT_TRUE(at(2.9, 0.0));

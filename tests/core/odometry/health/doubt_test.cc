@@ -199,6 +199,7 @@ TEST(DoubtWatch, AnOpenDirectionAloneDoesNotKeepTheMapFromGrowing) {
   for (int i = 0; i < 200; ++i) body.Add(0);
   for (int i = 0; i < 10; ++i) body.Add(kFlagDegenerate);
   EXPECT_TRUE(body.MayEnterMap(kNewPart)) << "it moves on, and would be out of its map";
+  EXPECT_FALSE(body.MayEnterMap(kWrongWall)) << "it has slid to where the map says otherwise";
   EXPECT_NE(body.Add(0, kNewPart), 0U) << "its poses are in doubt all the same";
   EXPECT_TRUE(body.MayEnterMap(kNewPart));
 

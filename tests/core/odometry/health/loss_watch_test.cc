@@ -91,7 +91,7 @@ TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
   LossWatch watch({});
   for (int i = 0; i < 300; ++i) {
     WindowStatistics window = Settling(i, i % 2 == 0);
-    window.correction_rad = 0.1;
+    window.correction.rotation_rad = 0.1;
     EXPECT_FALSE(watch.Update(window));
   }
 }

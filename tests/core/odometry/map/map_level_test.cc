@@ -44,10 +44,9 @@ class BothKinds : public ::testing::TestWithParam<MapKind> {};
 
 TEST_P(BothKinds, SharedPlanesAreThoseOfTheCellsCentres) {
   MapLevel shared(Options(GetParam(), true), {}), own(Options(GetParam(), false), {});
-  std::vector<Eigen::Vector3d> accepted;
   const auto floor = Floor(4000, 3.0, 0.01, 1);
-  shared.Insert(floor, &accepted);
-  own.Insert(floor, &accepted);
+  shared.Insert(floor);
+  own.Insert(floor);
   int found = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (const Eigen::Vector3d& p : Floor(500, 3.2, 0.1, 2)) {
@@ -70,14 +69,13 @@ TEST(MapLevel, APlaneFollowsTheMapWhenItHasGrownByMoreThanAnEighth) {
   MapOptions options = Options(MapKind::kVoxelHash, true);
   options.min_point_spacing_m = 0.02;
   MapLevel level(options, {});
-  std::vector<Eigen::Vector3d> accepted;
   const Eigen::Vector3d asked(0.05, 0.05, 0.05);
   Eigen::Vector3d center;
   std::uint32_t fitted_at = 0;
   FittedPlane kept;
   int changes = 0;
   for (const Eigen::Vector3d& p : Floor(60000, 4.0, 0.01, 3)) {
-    level.Insert({p}, &accepted);
+    level.Insert({p});
     const VoxelKey cell = level.CellOf(asked);
     const VoxelIndex::Entry* site = level.FindSite(level.Locate(cell), cell);
     if (site == nullptr) continue;
@@ -100,8 +98,7 @@ TEST(MapLevel, APlaneIsGoneWithItsPoints) {
   MapOptions options = Options(MapKind::kVoxelHash, true);
   options.radius_m = 8.0;
   MapLevel level(options, {});
-  std::vector<Eigen::Vector3d> accepted;
-  level.Insert(Floor(4000, 3.0, 0.01, 4), &accepted);
+  level.Insert(Floor(4000, 3.0, 0.01, 4));
   Eigen::Vector3d center;
   int before = 0, after = 0;
   for (const Eigen::Vector3d& p : Floor(200, 3.0, 0.01, 5)) {
@@ -116,7 +113,7 @@ TEST(MapLevel, APlaneIsGoneWithItsPoints) {
   // Another floor, whose sites have the numbers of the former one, lies half a metre higher.
   auto higher = Floor(4000, 3.0, 0.01, 4);
   for (Eigen::Vector3d& p : higher) p += Eigen::Vector3d(20.0, 0.0, 0.5);
-  level.Insert(higher, &accepted);
+  level.Insert(higher);
   for (const Eigen::Vector3d& p : Floor(200, 3.0, 0.01, 5)) {
     const Eigen::Vector3d query = p + Eigen::Vector3d(20.0, 0.0, 0.5);
     const FittedPlane plane = Ask(level, query, &center);

@@ -27,7 +27,7 @@ std::vector<Eigen::Vector3d> RandomPoints(int count, double half_size,
 }
 
 VoxelHashMap MakeMap(double voxel_m, double spacing_m, double radius_m = 100.0) {
-  return VoxelHashMap(voxel_m, spacing_m, radius_m, 5);
+  return VoxelHashMap(voxel_m, spacing_m, radius_m);
 }
 
 std::vector<Eigen::Vector3d> Stored(const VoxelHashMap& map) {
@@ -126,10 +126,7 @@ TEST(VoxelHashMap, WhatItRefusesMayBeDroppedBefore) {
     const auto points = RandomPoints(3000, 2.0, Eigen::Vector3d(0.3 * seed, 0.0, 0.0), seed);
     std::vector<Eigen::Vector3d> wanted = points;
     with_dropping.DropRefused(&wanted);
-    std::vector<Eigen::Vector3d> accepted, accepted_of_wanted;
-    map.Insert(points, &accepted);
-    with_dropping.Insert(wanted, &accepted_of_wanted);
-    EXPECT_EQ(accepted, accepted_of_wanted);
+    EXPECT_EQ(map.Insert(points), with_dropping.Insert(wanted));
     EXPECT_EQ(Stored(map), Stored(with_dropping));
     if (seed > 0) {
       EXPECT_LT(wanted.size(), points.size());
@@ -177,8 +174,7 @@ TEST(VoxelHashMap, IsPreciseAMillionMetresFromTheOrigin) {
   const Eigen::Vector3d far(1e6, -1e6, 1e6);
   constexpr double kVoxel = 0.3;
   VoxelHashMap map = MakeMap(kVoxel, 0.0);
-  std::vector<Eigen::Vector3d> added;
-  map.Insert(RandomPoints(3000, 1.0, far, 21), &added);
+  const std::vector<Eigen::Vector3d> added = map.Insert(RandomPoints(3000, 1.0, far, 21));
   const std::vector<Eigen::Vector3d> stored = Stored(map);
   for (const Eigen::Vector3d& p : stored) {
     double nearest = 1.0;
@@ -264,9 +260,7 @@ TEST(KdTreeIndex, AgreesWithTheVoxelsWhereTheNeighboursAreInReach) {
   KdTreeIndex tree;
   const auto points = RandomPoints(20000, 4.0, Eigen::Vector3d::Zero(), 3);
   for (int batch = 0; batch < 10; ++batch) {
-    std::vector<Eigen::Vector3d> accepted;
-    hash.Insert({points.begin() + batch * 2000, points.begin() + (batch + 1) * 2000}, &accepted);
-    tree.Add(accepted);
+    tree.Add(hash.Insert({points.begin() + batch * 2000, points.begin() + (batch + 1) * 2000}));
   }
   int compared = 0;
   for (const auto& query : RandomPoints(2000, 3.9, Eigen::Vector3d::Zero(), 4)) {

@@ -80,6 +80,25 @@ TEST(Segmenter, DropsAndCountsPointsThatCannotBeUsed) {
   EXPECT_EQ(segmenter.counts().Kept(), 5);
 }
 
+TEST(Segmenter, KeepsTheFirstPointsThatAreFarEnoughBehindManyThatAreNot) {
+  Segmenter segmenter(SmallOptions());
+  int t_ms = 0;
+  // A hand before the LiDAR for 1.25 s; the last scan sees past it from its middle on.
+  for (; t_ms < 1250; t_ms += 50) {
+    LidarScan scan = MakeScan(t_ms, 50);
+    for (LidarPoint& point : scan.points) {
+      if (t_ms > 0) point.xyz_m = {0.1F, 0, 0};
+    }
+    segmenter.AddScan(scan);
+  }
+  const std::int64_t before = segmenter.counts().Kept();
+  LidarScan last = MakeScan(t_ms, 200);
+  for (std::size_t i = 0; i < 100; ++i) last.points[i].xyz_m = {0.1F, 0, 0};
+  segmenter.AddScan(last);
+  EXPECT_EQ(segmenter.counts().wrong_time, 0);
+  EXPECT_EQ(segmenter.counts().Kept() - before, 100);
+}
+
 TEST(Segmenter, MergesLidarsInTheBodyFrameAndWaitsForTheSlowerOne) {
   SegmenterOptions options = SmallOptions();
   options.T_body_lidar = {SE3(), SE3(Eigen::Quaterniond::Identity(), {0, 0, 100})};

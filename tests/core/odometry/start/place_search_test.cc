@@ -41,7 +41,7 @@ SearchRegion RegionAround(const Eigen::Vector3d& center_world) {
 
 TEST(FindPlaces, FindsWhereASweepWasMeasuredAnywhereInTheRegion) {
   const std::vector<Eigen::Vector3d> room = MakeRoom();
-  VoxelHashMap map(0.4, 0.1, 100.0, 5);
+  VoxelHashMap map(0.4, 0.1, 100.0);
   map.Insert(room);
   ThreadPool threads(1);
   testing::Random random(3);
@@ -62,8 +62,8 @@ TEST(FindPlaces, FindsWhereASweepWasMeasuredAnywhereInTheRegion) {
 }
 
 TEST(FindPlaces, HasNoPlaceWhereTheMapIsEmptyOrTheSweepIs) {
-  const VoxelHashMap empty(0.4, 0.1, 100.0, 5);
-  VoxelHashMap map(0.4, 0.1, 100.0, 5);
+  const VoxelHashMap empty(0.4, 0.1, 100.0);
+  VoxelHashMap map(0.4, 0.1, 100.0);
   map.Insert(MakeRoom());
   ThreadPool threads(1);
   const SearchRegion region = RegionAround({3, 3, 1});

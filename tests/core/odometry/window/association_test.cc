@@ -69,7 +69,7 @@ struct Segment {
     }
   }
   int Associate(const MapPyramid& map, ThreadPool* threads, Found* found) const {
-    return found->association.Associate(points, origins, T_begin, T_end, map, {0.0, 0.0}, threads,
+    return found->association.Associate(points, origins, T_begin, T_end, map, threads,
                                         &found->points);
   }
 };
@@ -188,14 +188,15 @@ TEST(SegmentAssociation, ASegmentThatHasNotMovedKeepsItsPlanes) {
   const Segment segment(500, 7);
   ThreadPool threads(1);
   Found found;
-  const StepTolerance tolerance = {1e-3, 1e-4};
+  const StepSize tolerance = {1e-3, 1e-4};
   const auto associate = [&](double x_m, double yaw_rad) {
     Vector6d tau = Vector6d::Zero();
     tau[0] = x_m;
     tau[5] = yaw_rad;
-    return found.association.Associate(segment.points, segment.origins, segment.T_begin,
-                                       Plus(segment.T_end, tau), map, tolerance, &threads,
-                                       &found.points);
+    const std::size_t chunks = found.association.Begin(
+        segment.points, segment.origins, segment.T_begin, Plus(segment.T_end, tau), map, tolerance);
+    for (std::size_t i = 0; i < chunks; ++i) found.association.Look(i);
+    return found.association.Finish(&found.points);
   };
   associate(0.0, 0.0);
   found.points.clear();
@@ -265,7 +266,7 @@ TEST(SegmentAssociation, JudgesGrazingByTheRayFromThePointsOwnLidar) {
   const std::vector<SegmentPoint> points = {{middle.cast<float>(), 0.5F, 1}};
   const auto normal = [&](const Eigen::Vector3d& origin) {
     Found found;
-    found.association.Associate(points, {Eigen::Vector3d::Zero(), origin}, SE3(), SE3(), map, {},
+    found.association.Associate(points, {Eigen::Vector3d::Zero(), origin}, SE3(), SE3(), map,
                                 &threads, &found.points);
     return found.points.at(0).normal_world;
   };
