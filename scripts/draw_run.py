@@ -65,12 +65,18 @@ def contents(arguments, output):
     run_json = {}
     if (arguments.result / "run.json").is_file():
         run_json = files.read_json(arguments.result / "run.json")
-    run, shown, figures = None, None, []
+    run, missing, shown, figures = None, [], None, []
+    try:
+        run = run_data.load(arguments.result, estimates, arguments.points)
+    except files.ReportError as error:
+        missing, estimates = [f"{error}."], []
+    if estimates and run.estimate is None:
+        raise files.ReportError(f"{arguments.evaluation} is the evaluation of another trajectory "
+                                f"than that in {arguments.result}")
     folder = output / "figures"
     folder.mkdir(parents=True, exist_ok=True)
     theme.apply()
-    try:
-        run = run_data.load(arguments.result, estimates, arguments.points)
+    if run is not None:
         missing = run.missing
         figures = draw_figures(run, folder, options)
         unavailable = view.missing_library()
@@ -78,10 +84,6 @@ def contents(arguments, output):
             missing.append(unavailable)
         else:
             shown = view.embedded(run)
-    except files.ReportError as error:
-        missing = [f"{error}."]
-    if run is None or run.estimate is None:
-        estimates = []
     return {"title": arguments.title or title_of(run_json, arguments.result),
             "verdict": run_summary.verdict(run_json),
             "ended_well": run_json.get("exit", {}).get("code") in (0, 3),

@@ -54,8 +54,6 @@ def load(result, estimates=(), budget=view_cloud.BUDGET):
     missing = []
     times, positions, quaternions = files.read_poses(result / "trajectory.tum")
     estimate = estimate_of(times, positions, estimates)
-    if estimates and not estimate:
-        missing.append("The evaluation is not of this run's trajectory: its numbers are left out.")
     times, positions, quaternions = drawable(times, positions, quaternions, missing)
     frame = frame_of(estimate)
     cloud = view_cloud.read_cloud(result, times[0], budget)

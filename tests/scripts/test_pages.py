@@ -141,13 +141,18 @@ class RunPageTest(FolderTest):
         self.assertIn(f"<dt>{100 * rmse:.1f} cm</dt>",
                       self.draw("--evaluation", self.folder / "evaluation"))
 
-    def test_the_errors_of_another_run_are_left_out_and_that_is_said(self):
+    def test_the_evaluation_of_another_run_is_refused(self):
         write_result(self.folder / "other", seconds=20)
-        write_evaluation(self.folder / "evaluation", {"one": 0.2}, of=self.folder / "other")
-        write_result(self.folder)
-        text = self.draw("--evaluation", self.folder / "evaluation")
-        self.assertIn("The evaluation is not of this run&#39;s trajectory", text)
-        self.assertNotIn("Against the truth", text)
+        evaluation = write_evaluation(self.folder / "evaluation", {"one": 0.2},
+                                      of=self.folder / "other")
+        own = write_result(self.folder / "own")
+        before = sorted(own.iterdir())
+        done = subprocess.run([SCRIPTS / "draw_run.py", own, "--evaluation", evaluation],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn(f"{evaluation} is the evaluation of another trajectory than that in {own}",
+                      done.stderr)
+        self.assertEqual(sorted(own.iterdir()), before)
 
     def test_points_can_be_fewer_and_not_none(self):
         write_result(self.folder)
