@@ -135,16 +135,15 @@ def run_command(job, inputs, files, result):
 
 
 def last_message(path):
-    """What a program said last by its name, else the last line of a log; with the one before if
-    this one only continues it."""
+    """What a program said last by its name, else the last line of a log; on one line, with the
+    lines below that continue it."""
     lines = path.read_text(errors="replace").rstrip().splitlines()
-    named = [line for line in lines if re.match(r"trajlo_\w+: (?!warning)", line)]
-    if named:
-        return named[-1].strip()
-    lines = lines[-2:]
-    if len(lines) == 2 and not lines[1].startswith(" "):
-        lines = lines[1:]
-    return "; ".join(line.strip() for line in lines)
+    begins = [i for i, line in enumerate(lines) if re.match(r"trajlo_\w+: (?!warning)", line)] or [
+        i for i, line in enumerate(lines) if not line.startswith(" ")]
+    begin = begins[-1] if begins else 0
+    end = next((i for i in range(begin + 1, len(lines)) if not lines[i].startswith(" ")),
+               len(lines))
+    return "; ".join(line.strip() for line in lines[begin:end]).replace(":; ", ": ")
 
 
 def execute(command, log_file, timeout_s):

@@ -101,6 +101,12 @@ class RunTest(FolderTest):
         self.assertEqual(status["reason"], "configuration refused: trajlo_run: unknown flag --rat; "
                                            "did you mean --rate?")
 
+    def test_a_message_of_several_lines_is_kept_whole_on_one(self):
+        status = self.run_with("printf 'trajlo_run: a.bag: no topic; there are:\\n    /front\\n"
+                               "    /rear\\n  Set input.topics.\\n(--help shows more)\\n'; exit 2")
+        self.assertEqual(status["reason"], "input unreadable: trajlo_run: a.bag: no topic; there "
+                                           "are: /front; /rear; Set input.topics.")
+
     def test_a_signal_is_a_crash(self):
         status = self.run_with("kill -ABRT $$")
         self.assertEqual((status["exit_code"], status["reason"]),
