@@ -3,7 +3,7 @@
 import shutil
 import time
 
-from trajlo_batch.results import USABLE
+from trajlo_batch.results import FAILED
 
 
 def clock(seconds):
@@ -19,13 +19,13 @@ class ProgressLines:
         self.total, self.said, self.stream = total, set(ended), stream
 
     def update(self, ended, _):
-        for folder, status in ended.items():
+        for folder, run in ended.items():
             if folder in self.said:
                 continue
             self.said.add(folder)
-            wall_s = status["wall_s"]
-            took = clock(wall_s) if wall_s >= 60 else f"{wall_s:.1f} s"
-            print(f"{len(self.said)}/{self.total} {folder}: {status['reason']}, {took}",
+            took = clock(run.wall_s) if run.wall_s >= 60 else f"{run.wall_s:.1f} s"
+            mark = "x, " if run.result == FAILED else ""
+            print(f"{len(self.said)}/{self.total} {folder}: {mark}{run.reason}, {took}",
                   file=self.stream, flush=True)
 
     def close(self):
@@ -52,7 +52,7 @@ class ProgressBar:
 
     def update(self, ended, complete):
         width = shutil.get_terminal_size().columns
-        failed = sum(status["exit_code"] not in USABLE for status in ended.values())
+        failed = sum(run.result == FAILED for run in ended.values())
         line = self.line(len(ended), failed, complete, time.monotonic() - self.begin, width)
         self.stream.write(f"\r\x1b[K{line[:width - 1]}")
         self.stream.flush()

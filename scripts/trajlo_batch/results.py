@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What came out of a batch: a row a run, with the options that vary, metrics, time and how it
 ended."""
+import dataclasses
 import difflib
 import pathlib
 import re
@@ -115,6 +116,24 @@ def outcome(status, evaluation_status, diverged):
     if evaluation_status["reason"]:
         return FAILED, evaluation_status["reason"]
     return (FAILED, diverged) if diverged else (OK, status["reason"])
+
+
+@dataclasses.dataclass(frozen=True)
+class Ended:
+    """How a run ended, as the tables will say it."""
+    result: str
+    reason: str
+    wall_s: float
+
+
+def ended(folder):
+    """Nothing until the run in this folder has been judged."""
+    status = read_json_if(folder / "status.json")
+    if not status:
+        return None
+    result, reason = outcome(status, read_json_if(folder / "evaluation_status.json"),
+                             evaluation_values(folder)[1])
+    return None if result == UNFINISHED else Ended(result, reason, status["wall_s"])
 
 
 def cpu_per_data_second(cpu_s, data_s):

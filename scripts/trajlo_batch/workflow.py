@@ -6,7 +6,8 @@ import signal
 import subprocess
 import sys
 
-from trajlo_batch.places import ROOT, read_json_if
+from trajlo_batch import results
+from trajlo_batch.places import ROOT
 from trajlo_batch.progress import ProgressBar, ProgressLines
 from trajlo_batch.yaml_lines import SuiteError
 
@@ -44,26 +45,36 @@ def snakemake_command(output, jobs, slurm, sbatch):
                       "--cluster-cancel", "scancel", "--latency-wait", "60"]
 
 
-def progress(plan):
-    """{folder: status} of the runs that have ended, and how many have all that belongs to them: an
-    evaluation, in a batch a page."""
-    output, folders = plan.places.output, [run.folder for run in plan.runs]
-    statuses = {folder: read_json_if(output / folder / "status.json") for folder in folders}
-    complete = sum((output / folder / plan.suite.goal).is_file() for folder in folders)
-    return {folder: status for folder, status in statuses.items() if status}, complete
+class Watch:
+    """What has become of the runs of a plan so far."""
+
+    def __init__(self, plan):
+        self.plan, self.ended = plan, {}
+
+    def look(self):
+        """{folder: Ended} of the runs that have been judged, and how many have all that belongs to
+        them, in a batch a page."""
+        output, folders = self.plan.places.output, [run.folder for run in self.plan.runs]
+        for folder in folders:
+            found = None if folder in self.ended else results.ended(output / folder)
+            if found:
+                self.ended[folder] = found
+        complete = sum((output / folder / self.plan.suite.goal).is_file() for folder in folders)
+        return self.ended, complete
 
 
 def work(plan, jobs, slurm=False, sbatch=""):
     """Lets Snakemake do what is missing; its log is OUTPUT/snakemake.log. Returns its exit code."""
     output = plan.places.output
     shown = ProgressBar if sys.stderr.isatty() else ProgressLines
-    bar = shown(len(plan.runs), progress(plan)[0], sys.stderr)
+    watch = Watch(plan)
+    bar = shown(len(plan.runs), watch.look()[0], sys.stderr)
     with (output / "snakemake.log").open("a") as log:
         process = subprocess.Popen(snakemake_command(output, jobs, slurm, sbatch), stdout=log,
                                    stderr=subprocess.STDOUT, start_new_session=True)
         try:
             while True:
-                bar.update(*progress(plan))
+                bar.update(*watch.look())
                 try:
                     return process.wait(0.5)
                 except subprocess.TimeoutExpired:
@@ -74,5 +85,5 @@ def work(plan, jobs, slurm=False, sbatch=""):
             process.wait()
             raise
         finally:
-            bar.update(*progress(plan))
+            bar.update(*watch.look())
             bar.close()

@@ -4,6 +4,8 @@ import dataclasses
 import io
 import json
 import os
+import pathlib
+import tempfile
 import unittest
 
 from support import FolderTest
@@ -194,16 +196,28 @@ class ProgressTest(unittest.TestCase):
 
     def test_in_a_pipe_each_run_that_ends_has_a_line(self):
         stream = io.StringIO()
-        ended = {"a/b": {"reason": "ok", "wall_s": 1, "exit_code": 0}}
+        ended = {"a/b": results.Ended("ok", "ok", 1)}
         lines = ProgressLines(3, ended, stream)
         lines.update(ended, 0)
         self.assertEqual(stream.getvalue(), "")
-        ended["a/c"] = {"reason": "estimator lost", "wall_s": 75.2, "exit_code": 4}
+        ended["a/c"] = results.Ended("x", "estimator lost", 75.2)
         lines.update(ended, 1)
         lines.update(ended, 2)
-        ended["a/d"] = {"reason": "ok", "wall_s": 3.14, "exit_code": 0}
+        ended["a/d"] = results.Ended("ok", "ok", 3.14)
         lines.update(ended, 2)
-        self.assertEqual(stream.getvalue(), "2/3 a/c: estimator lost, 1:15\n3/3 a/d: ok, 3.1 s\n")
+        self.assertEqual(stream.getvalue(), "2/3 a/c: x, estimator lost, 1:15\n3/3 a/d: ok, 3.1 s\n")
+
+    def test_a_run_that_is_not_evaluated_yet_has_no_verdict_and_a_diverged_one_has_an_x(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            self.assertIsNone(results.ended(folder))
+            files.write_atomically(folder / "status.json", json.dumps(
+                {"exit_code": 0, "reason": "ok", "wall_s": 1.0}))
+            self.assertIsNone(results.ended(folder))
+            files.write_atomically(folder / "evaluation_status.json", json.dumps({"reason": ""}))
+            files.write_atomically(folder / "evaluation" / "evaluation.json", json.dumps(
+                {"estimates": [{"diverged": True, "divergence_reason": "too far"}]}))
+            self.assertEqual(results.ended(folder), results.Ended("x", "too far", 1.0))
 
     def test_when_all_runs_have_ended_the_bar_counts_those_that_are_complete(self):
         bar = ProgressBar(10, {}, io.StringIO())
