@@ -17,6 +17,27 @@ def named_configs():
             for file in sorted(where.glob("*.y*ml"))}
 
 
+def of_project(word, kind):
+    """The suite or the experiment that a user names: a file, or one of config/suites or
+    config/experiments by its name."""
+    path = pathlib.Path(word)
+    known = {file.stem: file for file in sorted((ROOT / "config" / kind).glob("*.yaml"))}
+    if path.name == word and path.stem in known and path.suffix in ("", ".yaml") and (
+            not path.is_file()):  # a folder may well have that name: the results
+        return known[path.stem]
+    if path.exists():
+        return path
+    if path.name == word and path.suffix not in YAML:
+        near = difflib.get_close_matches(word, known, 1)
+        raise SuiteError(f"there is no file {word}, and no {kind.removesuffix('s')} of this name"
+                         + (f"; did you mean {near[0]}?" if near else
+                            f"; there are {', '.join(known)}"))
+    beside = {file.stem: file for file in (*known.values(), *path.parent.glob("*.y*ml"))}
+    near = difflib.get_close_matches(path.stem, beside, 1)
+    raise SuiteError(f"there is no file {path}"
+                     + (f"; did you mean {beside[near[0]]}?" if near else ""))
+
+
 def find(suite_file, word, names=None):
     """A file that a suite names: below the suite's own folder, else below the project's. A word
     without a slash and .yaml is one of `names`."""

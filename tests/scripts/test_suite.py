@@ -133,5 +133,34 @@ class SuiteTest(FolderTest):
                 self.assertTrue(any(name.startswith(kind) for name in scenarios), kind)
 
 
+class NamedFileTest(FolderTest):
+    def test_a_file_of_the_project_has_a_short_name(self):
+        for word, kind in (("simulation", "suites"), ("simulation.yaml", "suites"),
+                           ("weights", "experiments")):
+            self.assertEqual(suite_files.of_project(word, kind),
+                             ROOT / "config" / kind / f"{word.removesuffix('.yaml')}.yaml")
+
+    def test_a_file_comes_before_a_name_and_a_folder_does_not(self):
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.folder)
+        (self.folder / "simulation").mkdir()
+        named = ROOT / "config" / "suites" / "simulation.yaml"
+        self.assertEqual(suite_files.of_project("simulation", "suites"), named)
+        self.write("simulation.yaml", SMALL)
+        self.assertEqual(str(suite_files.of_project("simulation.yaml", "suites")),
+                         "simulation.yaml")
+
+    def test_a_misspelt_name_has_a_suggestion(self):
+        other = self.write("flights.yaml", SMALL)
+        for word, said in (
+                ("simulatoin", "no suite of this name; did you mean simulation?"),
+                ("nothing_like_it", "there are ablation, choose, "),
+                ("config/suites/simulatoin.yaml", f"did you mean {ROOT}/config/suites/simulation"),
+                (str(self.folder / "fligths.yaml"), f"did you mean {other}?")):
+            with self.assertRaises(SuiteError) as caught:
+                suite_files.of_project(word, "suites")
+            self.assertIn(said, str(caught.exception))
+
+
 if __name__ == "__main__":
     unittest.main()
