@@ -11,13 +11,13 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import time
 
 import yaml
 
-from trajlo_batch.places import ROOT, read_json_if, write_json
+from trajlo_batch.places import read_json_if, write_json
 from trajlo_report import names
+from trajlo_report.files import ReportError
 
 EXIT_REASONS = {0: "ok", 1: "configuration refused", 2: "input unreadable",
                 3: "a part of the input was damaged", 4: "estimator lost",
@@ -230,14 +230,17 @@ def evaluate(job_file):
 
 
 def draw(status_file):
-    """The page of a run."""
+    """The page of a run. Its figures are pictures only, as the pages show them: most of the time
+    would go into SVG and PDF of hundreds of runs. draw_run.py makes those of the one that goes
+    into a paper."""
+    from trajlo_report import run_page  # no other job has to wait for Matplotlib
     folder = pathlib.Path(status_file).resolve().parent
     (folder / "result").mkdir(exist_ok=True)
-    command = [sys.executable, ROOT / "scripts" / "draw_run.py", folder / "result",
-               "--output", folder / "page",
-               "--points", str(PAGE_POINTS),
-               "--title", f"{names.title(folder.name)} · {folder.parent.name}"]
-    if (folder / "evaluation" / "evaluation.json").is_file():
-        command += ["--evaluation", folder / "evaluation"]
-    if subprocess.run(mortal(command), check=False).returncode != 0:
-        raise StepError(f"no page could be drawn of {folder}")
+    evaluation = folder / "evaluation"
+    if not (evaluation / "evaluation.json").is_file():
+        evaluation = None
+    try:
+        run_page.write(folder / "result", folder / "page", evaluation,
+                       f"{names.title(folder.name)} · {folder.parent.name}", PAGE_POINTS, ("png",))
+    except ReportError as error:
+        raise StepError(f"no page could be drawn of {folder}: {error}") from error

@@ -10,4 +10,5 @@
   run_summary, comparison_words   conclusions in sentences
   names        names for people
   page         HTML with everything inside
+  run_page     the page of a run
 """

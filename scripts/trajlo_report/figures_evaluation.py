@@ -14,7 +14,7 @@ FIGURES = {
 }
 
 
-def draw_all(estimates, folder, dpi=250, width_in=theme.COLUMN_IN):
+def draw_all(estimates, folder, dpi=250, width_in=theme.COLUMN_IN, formats=theme.FORMATS):
     """Draws what there is to draw into `folder`; returns the paths of the first format, with
     captions and widths for a page."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -25,6 +25,6 @@ def draw_all(estimates, folder, dpi=250, width_in=theme.COLUMN_IN):
     for name, (function, caption) in FIGURES.items():
         figure = function(estimates, width_in)
         if figure:
-            paths = theme.save(figure, folder / name, dpi=dpi)
+            paths = theme.save(figure, folder / name, formats, dpi=dpi)
             drawn.append({"path": paths[0], "caption": caption, "width": int(width_in * 140)})
     return drawn

@@ -6,6 +6,8 @@ import unittest
 
 import numpy as np
 import yaml
+from evaluation_folder import write_evaluation
+from result_folder import write_result
 from support import FolderTest
 
 from trajlo_batch import plan, steps
@@ -135,6 +137,19 @@ class RunTest(FolderTest):
         self.run_with("exit 0")
         self.assertFalse((self.folder / "plain/one/result").exists())
         self.assertEqual(self.run_with("exit 1")["exit_code"], 0)
+
+
+class DrawTest(FolderTest):
+    def test_the_page_of_a_run_has_pictures_alone_which_are_quick_to_draw(self):
+        run = self.folder / "plain" / "one"
+        write_result(run / "result")
+        write_evaluation(run / "evaluation", {"plain": 0.01}, of=run / "result")
+        steps.draw(self.write("plain/one/evaluation_status.json", "{}"))
+        drawn = list((run / "page" / "figures").iterdir())
+        self.assertEqual({path.suffix for path in drawn}, {".png"})
+        self.assertLess({"map", "windows", "thumbnail", "over_time"}, {path.stem for path in drawn})
+        self.assert_self_contained(run / "page" / "run.html")
+        self.assertIn("one · plain", (run / "page" / "run.html").read_text())
 
 
 class EvaluationFlagsTest(FolderTest):
