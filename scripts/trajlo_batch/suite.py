@@ -6,6 +6,7 @@ import pathlib
 import re
 
 from trajlo_batch.yaml_lines import SuiteError, check, load, texts
+from trajlo_report.names import decimals_of
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 
@@ -71,7 +72,7 @@ class Suite:
     configurations: tuple
     published: tuple
     metric: str = "ate_rmse_m"
-    decimals: int = 3
+    decimals: int = 4
     over_seeds: str = "median"
     rows: str = "sequences"
     average: bool = False
@@ -207,13 +208,14 @@ def read_suite(path):
     sequences = [sequence for entry in entries(document, "sequences")
                  for sequence in read_sequences(entry, defaults)]
     configurations = [read_configuration(entry) for entry in entries(document, "configurations")]
+    metric = document.get("metric", "ate_rmse_m")
     suite = Suite(
         name=path.stem, file=path, title=document.get("title", path.stem),
         description=document.get("description", ""), needs=document.get("needs", ""),
         sequences=unique(sequences, "the sequence", document),
         configurations=unique(configurations, "the configuration", document),
         published=tuple(texts(document, "published")),
-        metric=document.get("metric", "ate_rmse_m"), decimals=document.get("decimals", 3),
+        metric=metric, decimals=document.get("decimals", decimals_of(metric)),
         over_seeds=one_of(document, "over_seeds", ("median", "mean", "max")),
         rows=one_of(document, "rows", ("sequences", "configurations")),
         average=document.get("average", False), threads=document.get("threads", 1),

@@ -100,8 +100,8 @@ def average_cell(cells, decimals):
 
 
 def mark(lines, metric):
-    """Marks the best of each column, and of each category when there are several. Numbers that
-    are printed alike are equally good."""
+    """Marks the best of each column, and of each category when there are several: by all of their
+    digits, also where numbers are printed alike."""
     categories = {line.category for line in lines}
     for column in zip(*(line.cells for line in lines)):
         cells = list(zip(lines, column))
@@ -114,9 +114,9 @@ def mark(lines, metric):
 def best_of(cells, attribute, metric):
     best = (max if LARGER_IS_BETTER.fullmatch(metric) else
             min if SMALLER_IS_BETTER.fullmatch(metric) else None)
-    values = [float(cell.text) for _, cell in cells if not math.isnan(cell.value)]
+    values = [cell.value for _, cell in cells if not math.isnan(cell.value)]
     for _, cell in cells:
-        if best and values and not math.isnan(cell.value) and float(cell.text) == best(values):
+        if best and values and cell.value == best(values):
             setattr(cell, attribute, True)
 
 

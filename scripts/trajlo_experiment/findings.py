@@ -9,6 +9,7 @@ from trajlo_batch import results
 from trajlo_experiment import analysis, designs
 from trajlo_experiment.experiment import CENTER
 from trajlo_experiment.factors import LOG, is_number
+from trajlo_report.names import decimals_of
 
 # How a metric is written on an axis: name, unit, what it is multiplied by, decimals in a cell.
 SHOWN = {"ate_rmse_m": ("position error, RMSE", "cm", 100.0, 1),
@@ -38,7 +39,7 @@ class Findings:
         self.marks = {mark: row for row in self.rows for mark in analysis.marks_of(row)}
         self.reference = analysis.reference_of(self.rows, self.metric, study.reference)
         name, self.unit, self.multiplier, self.decimals = SHOWN.get(
-            self.metric, (self.metric.replace("_", " "), "", 1.0, 3))
+            self.metric, (self.metric.replace("_", " "), "", 1.0, decimals_of(self.metric)))
         self.label = f"{name} [{self.unit}]" if self.unit else name
         by_name = {ranked.point: ranked for ranked in self.ranked()}
         self.scores = {row["point"]: by_name[row["point"]] for row in self.rows

@@ -73,4 +73,5 @@ def render(template, **values):
         lstrip_blocks=True, undefined=jinja2.ChainableUndefined)
     environment.filters.update(number=number, setting=setting, data_uri=data_uri, compact_uri=compact_uri,
                                title=names.title)
-    return environment.get_template(template).render(theme=theme, **values)
+    return environment.get_template(template).render(theme=theme, decimals_of=names.decimals_of,
+                                                      **values)

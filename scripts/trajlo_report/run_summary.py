@@ -46,6 +46,8 @@ def verdict(run_json):
 def length(metres):
     if metres >= 1000:
         return f"{metres / 1000:.2f} km"
+    if metres < 0.00995:
+        return f"{1000 * metres:.1f} mm"
     return f"{metres:.0f} m" if metres >= 100 else f"{metres:.1f} m" if metres >= 1 else (
         f"{100 * metres:.1f} cm")
 

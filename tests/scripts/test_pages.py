@@ -77,7 +77,8 @@ class EvaluationPageTest(FolderTest):
     def test_relative_errors_are_those_of_distances_where_the_truth_has_only_positions(self):
         document = write_evaluation(self.folder, {"one": 0.01}, with_rotation=False)
         relative = files.read_json(document / "evaluation.json")["estimates"][0]["rpe"][0]
-        shown = [page.number(relative["point_distance_m"][name]) for name in ("rmse", "mean", "max")]
+        shown = [page.number(relative["point_distance_m"][name], 4)
+                 for name in ("rmse", "mean", "max")]
         self.assertEqual(self.relative_errors(), (["1.0 m *", "60", *shown, "–", "–", "–"], True))
         write_evaluation(self.folder, {"one": 0.01})
         cells, has_note = self.relative_errors()
@@ -212,6 +213,10 @@ class RunPageTest(FolderTest):
 
 
 class PageTest(unittest.TestCase):
+    def test_lengths_of_millimetres_keep_a_digit(self):
+        self.assertEqual([run_summary.length(metres) for metres in (0.0017, 0.0019, 0.0123, 1.5)],
+                         ["1.7 mm", "1.9 mm", "1.2 cm", "1.5 m"])
+
     def test_numbers_are_short_and_small_ones_keep_their_digits(self):
         shown = [page.number(value) for value in (0.1234, 0.00012, 12, None, float("nan"), True)]
         self.assertEqual(shown, ["0.123", "0.00012", "12", "–", "–", "True"])

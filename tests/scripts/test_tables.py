@@ -78,8 +78,12 @@ class ComparedTableTest(unittest.TestCase):
         self.assertTrue(self.cell(table, "FAST-LIO", "L1+I").category_best)
         self.assertFalse(self.cell(table, "Traj-LO", "L1+L2").category_best)
 
-    def test_values_that_are_printed_alike_are_equally_good(self):
+    def test_of_values_that_are_printed_alike_the_better_one_is_the_best(self):
         table = self.table(0.0294)
+        self.assertEqual(self.cell(table, "ours", "L1").text, "0.029")
+        self.assertFalse(self.cell(table, "ours", "L1").best)
+        self.assertTrue(self.cell(table, "FAST-LIO", "L1+I").best)
+        table = self.table(0.029)
         self.assertTrue(self.cell(table, "ours", "L1").best)
         self.assertTrue(self.cell(table, "FAST-LIO", "L1+I").best)
 
@@ -118,8 +122,14 @@ class SuiteTableTest(unittest.TestCase):
         rows = [row("ours", "eee_01", value, sequence=f"eee_01-seed{i}")
                 for i, value in enumerate((0.1, 0.9, 0.2))]
         cell = tables.suite_table(make_suite(), rows).lines[0].cells[0]
-        self.assertEqual(cell.text, "0.200")
-        self.assertIn("0.100 to 0.900, 3 seeds", cell.note)
+        self.assertEqual(cell.text, "0.2000")
+        self.assertIn("0.1000 to 0.9000, 3 seeds", cell.note)
+
+    def test_errors_of_millimetres_are_told_apart(self):
+        rows = [row("ours", "eee_01", 0.00169), row("theirs", "eee_01", 0.00191)]
+        lines = tables.suite_table(make_suite(configurations=("ours", "theirs")), rows).lines
+        self.assertEqual([(line.cells[0].text, line.cells[0].best) for line in lines],
+                         [("0.0017", True), ("0.0019", False)])
 
     def test_the_fastest_is_the_best(self):
         suite = make_suite(configurations=("ours", "theirs"), metric="times_real_time")
@@ -141,7 +151,7 @@ class SuiteTableTest(unittest.TestCase):
         rows = [row("ours", "eee_01", 0.1, sequence="a"),
                 row("ours", "eee_01", 0.1, "x", sequence="b"), row("theirs", "eee_01", 0.2)]
         ours, theirs = (line.cells[0] for line in tables.suite_table(suite, rows).lines)
-        self.assertEqual((ours.text, ours.best), ("0.100 (1 x)", False))
+        self.assertEqual((ours.text, ours.best), ("0.1000 (1 x)", False))
         self.assertTrue(theirs.best)
 
     def test_a_seed_that_has_not_ended_is_counted_and_no_mark_is_given(self):
@@ -153,12 +163,12 @@ class SuiteTableTest(unittest.TestCase):
         table = tables.suite_table(suite, rows)
         for text in (table_formats.to_markdown(table), table_formats.to_latex(table),
                      table_formats.to_csv(table)):
-            self.assertIn("0.100 (1 of 3)", text)
+            self.assertIn("0.1000 (1 of 3)", text)
         ours, theirs = (line.cells[0] for line in table.lines)
         self.assertEqual((ours.best, theirs.best), (False, True))
         rows[1]["result"] = "x"
         cell = tables.suite_table(suite, rows).lines[0].cells[0]
-        self.assertEqual((cell.text, cell.best), ("0.100 (1 x) (2 of 3)", False))
+        self.assertEqual((cell.text, cell.best), ("0.1000 (1 x) (2 of 3)", False))
         rows[0]["result"] = "not finished"
         self.assertEqual(tables.suite_table(suite, rows).lines[0].cells[0].text, "x (1 of 3)")
 
