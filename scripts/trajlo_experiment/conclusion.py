@@ -160,10 +160,13 @@ def warnings(plan):
     densities = sorted(key for key in varied
                        if key in ("expert.motion_prior.translation_m2_s3", "expert.motion_prior.rotation_rad2_s3"))
     asked = "motion_prior.self_tuning" in varied  # then it is what the experiment is about
-    if densities and not asked and any(map(tunes_itself, {run.options for run in plan.runs})):
-        said.append(f"{', '.join(densities)} varied while motion_prior.self_tuning was true: the "
-                    "runs set these by themselves, and what was varied is only where they began. "
-                    "Set motion_prior.self_tuning: false to compare densities.")
+    # A mark may well tune itself beside a sweep that does not.
+    design = {point.name for point in plan.suite.points if point.in_design}
+    options = {run.options for run in plan.runs if run.configuration.name in design}
+    if densities and not asked and any(map(tunes_itself, options)):
+        said.append(f"This is a sweep of {', '.join(densities)} while motion_prior.self_tuning is "
+                    "true: the runs set these by themselves, and what varies is only where they "
+                    "begin. Set motion_prior.self_tuning: false to compare densities.")
     return said
 
 

@@ -126,6 +126,18 @@ class PointsTest(PretendedTest):
         self.assertNotEqual(other[0].levels["window.segments"], 7.5)
 
 
+class TerminalTest(PretendedTest):
+    def test_a_sweep_of_densities_that_tune_themselves_is_warned_of_before_the_first_run(self):
+        self.executable("build/apps/trajlo_run", "#!/bin/sh\n"
+                        "echo 'motion_prior: {self_tuning: true}'\n")
+        text = SMALL.replace("window.segments", "expert.motion_prior.translation_m2_s3")
+        done = subprocess.run(
+            [SCRIPTS / "experiment", self.write("e.yaml", text), "--build", self.places.build,
+             "--output", self.places.output, "--list"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Warning: This is a sweep of expert.motion_prior.translation_m2_s3 while", done.stderr)
+
+
 class TableTest(PretendedTest):
     def rows(self, text=SMALL, **finished):
         batch = self.batch(text)

@@ -213,12 +213,16 @@ class FiguresTest(PretendedTest):
     def test_sigmas_that_vary_while_the_weights_tune_themselves_are_no_sweep(self):
         def plan_of(options, varied):
             factors = [types.SimpleNamespace(keys={key: None}, settings={}) for key in varied]
-            return types.SimpleNamespace(runs=[types.SimpleNamespace(options=options)],
-                                         suite=types.SimpleNamespace(factors=factors))
+            point = types.SimpleNamespace(name="a", in_design=True)
+            runs = [types.SimpleNamespace(options=options, configuration=point),
+                    types.SimpleNamespace(options=tuned, configuration=mark)]
+            return types.SimpleNamespace(runs=runs, suite=types.SimpleNamespace(
+                factors=factors, points=[point, mark]))
 
+        mark = types.SimpleNamespace(name="b", in_design=False)
         tuned, fixed = "motion_prior: {self_tuning: true}", "motion_prior: {self_tuning: false}"
         density = "expert.motion_prior.translation_m2_s3"
-        self.assertIn(f"{density} varied while", conclusion.warnings(plan_of(tuned, [density]))[0])
+        self.assertIn(f"sweep of {density} while", conclusion.warnings(plan_of(tuned, [density]))[0])
         for options, varied in ((fixed, [density]), (tuned, ["expert.registration.kernel"]),
                                 (tuned, [density, "motion_prior.self_tuning"]), ("", [density])):
             self.assertEqual(conclusion.warnings(plan_of(options, varied)), [])
