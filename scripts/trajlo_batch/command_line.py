@@ -91,7 +91,7 @@ def say_missing(suite, missing):
 def show_list(plan):
     for number, run in enumerate(plan.runs, 1):
         why = f" ({', '.join(run.changes)} changed)" if run.changes else ""
-        print(f"{number:4} {run.state:8} {run.folder}{why}")
+        print(f"{number:4} {run.state:8} {plan.suite.described(run)}{why}")
 
 
 def interrupt(*_):

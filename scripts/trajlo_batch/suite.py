@@ -87,6 +87,10 @@ class Suite:
         return [(configuration, sequence) for configuration in self.configurations
                 for sequence in self.sequences if configuration.takes(sequence)]
 
+    def described(self, run):
+        """What lists and the progress call a run."""
+        return run.folder
+
 
 def scalar_text(mapping, key):
     """A value as `--set` wants it."""

@@ -52,14 +52,15 @@ class Watch:
         self.plan, self.ended = plan, {}
 
     def look(self):
-        """{folder: Ended} of the runs that have been judged, and how many have all that belongs to
-        them, in a batch a page."""
-        output, folders = self.plan.places.output, [run.folder for run in self.plan.runs]
-        for folder in folders:
-            found = None if folder in self.ended else results.ended(output / folder)
+        """{what a run is called: Ended} of those that have been judged, and how many have all that
+        belongs to them, in a batch a page."""
+        output, suite = self.plan.places.output, self.plan.suite
+        for run in self.plan.runs:
+            name = suite.described(run)
+            found = None if name in self.ended else results.ended(output / run.folder)
             if found:
-                self.ended[folder] = found
-        complete = sum((output / folder / self.plan.suite.goal).is_file() for folder in folders)
+                self.ended[name] = found
+        complete = sum((output / run.folder / suite.goal).is_file() for run in self.plan.runs)
         return self.ended, complete
 
 

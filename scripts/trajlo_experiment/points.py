@@ -14,6 +14,7 @@ from trajlo_batch.results import flatten
 from trajlo_batch.suite import Configuration
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_experiment import designs
+from trajlo_experiment.conclusion import level_of
 from trajlo_experiment.experiment import CENTER
 from trajlo_experiment.factors import SIMULATE, number_or_text
 
@@ -43,6 +44,10 @@ class Study:
     goal = "evaluation_status.json"
     keep_maps = False        # nine tenths of a result, and nobody looks at hundreds of maps
 
+    def described(self, run):
+        """The name of a point is a digest, which says nothing; its label does."""
+        return f"{run.folder} ({run.configuration.label})"
+
     def __getattr__(self, name):  # name, file, needs, threads, timeout_s
         return getattr(self.experiment, name)
 
@@ -56,6 +61,13 @@ def make_point(experiment, levels, extra=None):
     parameters = {key.removeprefix(SIMULATE): text for key, text in settings.items()
                   if key.startswith(SIMULATE)}
     return Point(levels, options, parameters)
+
+
+def words_of(experiment, point):
+    """The values of a point, and the names of those that have one."""
+    return ", ".join([*(level_of(experiment.factor(name), level)
+                        for name, level in point.levels.items()),
+                      *(f'"{mark}"' for mark in point.marks)])
 
 
 def design_file(output):
@@ -152,7 +164,8 @@ def make_study(experiment, places):
     points = make_points(experiment, shown, places.output)
     sequences, pairs = {}, []
     for point in points:
-        configuration = Configuration(point.name, point.name, settings=point.options)
+        configuration = Configuration(point.name, words_of(experiment, point),
+                                      settings=point.options)
         for base in experiment.base_sequences:
             sequence = with_parameters(experiment, base, point.parameters)
             sequences.setdefault(sequence.name, sequence)

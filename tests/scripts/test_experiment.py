@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Experiments are read strictly, keep what is done, and end in one table."""
+import contextlib
 import csv
 import io
 import json
@@ -10,7 +11,7 @@ import unittest
 from pretended_experiment import PretendedTest
 from support import ROOT, SCRIPTS
 
-from trajlo_batch import plan
+from trajlo_batch import command_line, plan, workflow
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_experiment import table
 from trajlo_experiment.experiment import read_experiment
@@ -127,6 +128,18 @@ class PointsTest(PretendedTest):
 
 
 class TerminalTest(PretendedTest):
+    def test_the_list_and_the_progress_say_what_a_run_sets(self):
+        batch = self.batch(SMALL)
+        said = f"{batch.runs[5].folder} (segments = 5, kernel = none, \"chosen\")"
+        shown = io.StringIO()
+        with contextlib.redirect_stdout(shown):
+            command_line.show_list(batch)
+        self.assertIn(f"   6 missing  {said}\n", shown.getvalue())
+        self.finish(batch, lambda *_: 0.1)
+        ended, complete = workflow.Watch(batch).look()
+        self.assertEqual((len(ended), complete), (10, 10))
+        self.assertEqual(ended[said].result, "ok")
+
     def test_a_sweep_of_densities_that_tune_themselves_is_warned_of_before_the_first_run(self):
         self.executable("build/apps/trajlo_run", "#!/bin/sh\n"
                         "echo 'motion_prior: {self_tuning: true}'\n")
