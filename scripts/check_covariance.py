@@ -15,7 +15,7 @@ For each stretch of time it prints the mean over the runs and the poses of the s
 If the covariance is right, that ratio lies in the band printed for 95 of 100 such experiments, and
 its mean over time all the more. That mean is the factor by which the covariance is optimistic; its
 95 % interval is a bootstrap over the runs, for the times of a run hang together (give ten or more:
-of fewer it is too narrow).
+of fewer it is too narrow, and of one run nothing is concluded).
 Needs Debian's python3-numpy and python3-scipy.
 """
 import argparse
@@ -117,9 +117,9 @@ def band(part, count):
 
 
 def interval(values):
-    """95 % interval of the mean of a few independent values; a single one tells nothing."""
+    """95 % interval of the mean of a few independent values; a single one has none."""
     if len(values) < 2:
-        return 0.0, np.inf
+        return np.nan, np.nan
     return stats.bootstrap((values,), np.mean, random_state=1).confidence_interval
 
 
@@ -142,9 +142,13 @@ def print_verdict(ratios):
     for part, values in ratios.items():
         low, high = interval(values.mean(axis=0))
         right_low, right_high = band(part, count)
-        print(f"  {part:12}  {values.mean():12.3g} {low:7.3g} to {high:<7.3g}"
-              f"{right_low:8.2f} to {right_high:.2f}")
+        shown = f"{low:7.3g} to {high:<7.3g}" if count > 1 else f"{'–':^18}"
+        print(f"  {part:12}  {values.mean():12.3g} {shown}{right_low:8.2f} to {right_high:.2f}")
     factor = ratios["pose"].mean()
+    if count < 2:
+        print(f"Squared errors are {factor:.3g} times what the covariance says. One run does not tell "
+              "whether that is more than chance: give ten or more.")
+        return
     low, high = interval(ratios["pose"].mean(axis=0))
     right_low, right_high = band("pose", count)
     word = ("right, as far as these runs can tell" if right_low <= factor <= right_high else

@@ -69,6 +69,12 @@ class CheckCovarianceTest(FolderTest):
         done = self.check([self.make_run(seed, factor=1.0) for seed in range(8)])
         self.assertIn("it is right", done.stdout)
 
+    def test_of_one_run_nothing_is_concluded(self):
+        done = self.check([self.make_run(1, factor=1.0)])
+        self.factor_of(done)
+        self.assertIn("One run does not tell", done.stdout)
+        self.assertNotRegex(done.stdout, "it is|inf|nan")
+
     def test_where_the_map_lies_in_the_world_does_not_matter(self):
         here = self.check([self.make_run(1, 1.0)])
         there = self.check([self.make_run(1, 1.0, Rotation.from_rotvec([0.3, -0.2, 0.5]))])
