@@ -88,19 +88,23 @@ def metric_names():
     """Columns with numbers that a table can show; those of relative errors are as many as lengths
     that are asked for."""
     nowhere = pathlib.Path("/nowhere")
-    return ({*evaluation_values(nowhere)[0], *run_values(nowhere)} - {"version"}) | {
-        "cpu_s_per_data_second", "wall_s", "cpu_s", "peak_memory_mb"}
+    names = [*evaluation_values(nowhere)[0], *run_values(nowhere), "cpu_s_per_data_second",
+             "wall_s", "cpu_s", "peak_memory_mb"]
+    return [name for name in names if name != "version"]
 
 
 def check_metric(suite, more=()):
     """Throws SuiteError for a metric that no run has; `more` are columns of this table alone."""
-    names = {*metric_names(), *more}
+    names = [*metric_names(), *more]
     if suite.metric in names or re.fullmatch(r"rpe_[0-9.e+-]+[a-z]+_(rotation_rmse_deg|rmse_m)",
                                              suite.metric):
         return
-    near = difflib.get_close_matches(suite.metric, names, 1)
+    names += ["rpe_1m_rmse_m"]
+    near = [*(name for name in names if name.startswith(suite.metric)),
+            *difflib.get_close_matches(suite.metric, names, 1)]
     raise SuiteError(f"{suite.file}: metric: no run has '{suite.metric}'"
-                     + (f"; did you mean '{near[0]}'?" if near else ""))
+                     + (f"; did you mean '{near[0]}'?" if near else
+                        f"; there are {', '.join(names)}"))
 
 
 def outcome(status, evaluation_status, diverged):

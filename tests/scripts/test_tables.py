@@ -143,8 +143,10 @@ class SuiteTableTest(unittest.TestCase):
             results.check_metric(make_suite(metric=metric))
         with self.assertRaisesRegex(SuiteError, "did you mean 'ate_rmse_m'"):
             results.check_metric(make_suite(metric="ate_rms_m"))
-        with self.assertRaises(SuiteError):
-            results.check_metric(make_suite(metric="host"))
+        for metric, said in (("ate", "did you mean 'ate_rmse_m'"), ("host", "there are ate_rmse_m"),
+                             ("rpe", "did you mean 'rpe_1m_rmse_m'")):
+            with self.assertRaisesRegex(SuiteError, said):
+                results.check_metric(make_suite(metric=metric))
 
     def test_a_seed_that_failed_is_counted_and_forfeits_the_mark(self):
         suite = make_suite(configurations=("ours", "theirs"))
