@@ -65,8 +65,19 @@ def evaluation_values(folder):
     values["kitti_rotation_deg_per_m"] = dig(estimate, "kitti", "rotation_deg_per_m")
     for key in ("completeness", "pairs", "path_length_m", "duration_s", "time_offset_s"):
         values[key] = estimate.get(key)
-    diverged = (estimate.get("divergence_reason") or "diverged") if estimate.get("diverged") else ""
-    return values, diverged
+    return values, divergence(estimate)
+
+
+def divergence(estimate):
+    """Why an evaluated run gets an x; nothing if it gets none."""
+    if not estimate.get("diverged"):
+        return ""
+    reason = estimate.get("divergence_reason") or "diverged"
+    # Evaluations of before have no field for it.
+    short = estimate.get("incomplete", re.search(r"covers .* of the ground truth, less", reason))
+    if not short:
+        return reason
+    return f"{reason}; if that is meant to be, say evaluate: {{min_completeness: 0}} in the sequence"
 
 
 def run_values(folder):

@@ -219,6 +219,14 @@ class ProgressTest(unittest.TestCase):
                 {"estimates": [{"diverged": True, "divergence_reason": "too far"}]}))
             self.assertEqual(results.ended(folder), results.Ended("x", "too far", 1.0))
 
+    def test_a_run_that_is_too_short_for_its_truth_is_told_how_to_be_judged_anyway(self):
+        said = "the estimate covers 33.5 % of the ground truth, less than 50 %"
+        short = {"diverged": True, "divergence_reason": said}
+        for estimate in (short, {**short, "incomplete": True}):
+            self.assertRegex(results.divergence(estimate), r"50 %;.* evaluate: {min_completeness: 0}")
+        self.assertEqual(results.divergence({**short, "incomplete": False}), said)
+        self.assertEqual(results.divergence({}), "")
+
     def test_when_all_runs_have_ended_the_bar_counts_those_that_are_complete(self):
         bar = ProgressBar(10, {}, io.StringIO())
         line = bar.line(done=10, failed=0, complete=6, elapsed=60, width=80)
