@@ -44,6 +44,9 @@ def bounds(estimates):
 
 
 def has_rotation(estimate):
+    """Whether there are absolute errors of the rotation that say something."""
+    if estimate.rotation_in_doubt:
+        return False
     values = estimate.errors.get("rotation_error_deg")
     return isinstance(values, np.ndarray) and np.isfinite(values).any()
 

@@ -152,6 +152,11 @@ class Estimate:
         return np.stack([self.errors[f"{axis}_true_m"] for axis in "xyz"], axis=1)
 
     @property
+    def rotation_in_doubt(self):
+        """Absolute errors of the rotation are mostly a turn that the alignment leaves open."""
+        return (self.metrics.get("ate") or {}).get("rotation_determined") is False
+
+    @property
     def diverged(self):
         return bool(self.metrics.get("diverged"))
 

@@ -100,6 +100,19 @@ class EvaluationPageTest(FolderTest):
         self.draw("--width", "page")
         self.assertEqual((self.folder / "figures" / "over_time.pdf").read_bytes(), pdf)
 
+    def test_a_rotation_that_the_alignment_leaves_open_is_not_shown_as_an_error(self):
+        write_evaluation(self.folder, {"one": 0.01})
+        path = self.folder / "evaluation.json"
+        document = json.loads(path.read_text())
+        document["estimates"][0]["ate"]["rotation_determined"] = False
+        document["estimates"][0]["ate"]["rotation_deg"]["rmse"] = 175.466
+        path.write_text(json.dumps(document))
+        text = self.draw().read_text()
+        self.assertNotIn("175.47", text)
+        self.assertIn("left open by the alignment", text)
+        _, estimates = files.read_evaluation(self.folder)
+        self.assertFalse(evaluated.has_rotation(estimates[0]))
+
     def test_a_folder_that_is_no_evaluation_is_named(self):
         done = subprocess.run([SCRIPTS / "draw_evaluation.py", self.folder], capture_output=True,
                               text=True, check=False)

@@ -187,6 +187,17 @@ class ResultsTest(PlannedTest):
         self.assertTrue(lines[0].startswith("suite,configuration,sequence,group,seed,degenerate,"))
 
 
+class MetricsTest(FolderTest):
+    def test_a_rotation_that_the_alignment_leaves_open_is_no_error(self):
+        ate = {"translation_m": {"rmse": 0.1}, "rotation_deg": {"rmse": 175.0}}
+        for said, rotation in ((False, None), (True, 175.0), (None, 175.0)):
+            own = ate if said is None else {**ate, "rotation_determined": said}
+            self.write("evaluation/evaluation.json", json.dumps({"estimates": [{"ate": own}]}))
+            values, _ = results.evaluation_values(self.folder)
+            self.assertEqual((values["ate_rmse_m"], values["ate_rotation_rmse_deg"]),
+                             (0.1, rotation))
+
+
 class ProgressTest(unittest.TestCase):
     def test_the_bar_says_what_is_done_and_when_the_rest_will_be(self):
         bar = ProgressBar(10, {"a/b": {}, "a/c": {}}, io.StringIO())
