@@ -66,6 +66,8 @@ def save(figure, stem, formats=FORMATS, dpi=250):
     for kind in formats:
         path = stem.with_name(f"{stem.name}.{kind}")
         figure.savefig(path, dpi=dpi, metadata=undated.get(kind, {}))
+        # To place all texts takes as long as to draw them; once is enough for all formats.
+        figure.set_layout_engine("none")
         paths.append(path)
     plt.close(figure)
     return paths

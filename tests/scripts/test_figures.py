@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Figures say what they show: no text is cut off, no legend hides data, marks have names."""
 import unittest
+import unittest.mock
 
 import numpy as np
 from evaluation_folder import write_evaluation
@@ -85,6 +86,13 @@ class FiguresTest(FolderTest):
         for line in axes.lines:
             places = axes.transData.transform(line.get_xydata())
             self.assertFalse(any(box.contains(x, y) for x, y in places))
+
+    def test_a_figure_is_laid_out_once_for_all_its_formats(self):
+        figure = figures_run.draw_windows(run_data.load(write_result(self.folder / "result")))
+        engine = figure.get_layout_engine()
+        with unittest.mock.patch.object(engine, "execute", wraps=engine.execute) as laid_out:
+            theme.save(figure, self.folder / "windows")
+        self.assertEqual(laid_out.call_count, 1)
 
 
 if __name__ == "__main__":
