@@ -28,7 +28,6 @@ std::vector<Option> BindOptions(RunConfig* config) {
   odometry.marginalization.Describe(d.In("marginalization"));
   odometry.window.Describe(d.In("window"));
   odometry.initialization.Describe(d.In("initialization"));
-  odometry.lost.Describe(d.In("lost"));
   odometry.Describe(d.In(""));
   std::stable_partition(d.options.begin(), d.options.end(), [](const Option& option) {
     return option.key.rfind(kExpertPrefix, 0) != 0;
@@ -54,7 +53,6 @@ std::string SectionDoc(const std::string& section) {
       {"marginalization", "How the past is kept when a segment leaves the window."},
       {"window", "The sliding window."},
       {"initialization", "How the first interval is treated."},
-      {"lost", "When the estimator stops believing itself."},
   };
   const std::string name =
       section.rfind(kExpertPrefix, 0) == 0 ? section.substr(kExpertPrefix.size()) : section;

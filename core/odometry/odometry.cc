@@ -34,9 +34,7 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
                 [this](SegmentCloud segment) { Take(std::move(segment)); }),
       map_(options.map),
       motion_prior_(options.motion_prior),
-      solver_(make_solver(options.solver, &threads_)),
-      inlier_watch_(options.lost.min_inlier_share),
-      loss_watch_(options.lost) {}
+      solver_(make_solver(options.solver, &threads_)) {}
 
 void Odometry::AddScan(const LidarScan& scan) { segments_.Add(scan); }
 
@@ -154,7 +152,7 @@ void Odometry::Step(SegmentCloud cloud) {
     Revert(predicted, &window_);
   }
   Describe(window_, &statistics);
-  Judge(options_.lost, options_.registration.points_per_error, &window_, &statistics);
+  Judge(options_.registration.points_per_error, &window_, &statistics);
   learning.Wait();
   Watch(&statistics);
   const int to_keep = SegmentsToKeep();

@@ -8,6 +8,7 @@
 
 #include "core/odometry/health/doubt.h"
 #include "core/odometry/health/inlier_watch.h"
+#include "core/odometry/health/loss_watch.h"
 #include "core/odometry/health/support.h"
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/odometry/health/loss_watch.h"
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/segments/segmenter.h"
 #include "core/odometry/solvers/solver_options.h"
@@ -41,7 +40,6 @@ struct OdometryOptions {
   WindowOptions window;
   SolverOptions solver;
   MarginalizationOptions marginalization;
-  LostOptions lost;
   int threads = 0;
 
   template <typename Describer>

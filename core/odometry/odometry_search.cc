@@ -92,7 +92,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
     segments.clear();
   }
   support_.Supported(sweep.cloud.begin_ns);
-  loss_watch_ = LossWatch(options_.lost);
+  loss_watch_ = LossWatch();
   search_.reset();
   for (SegmentCloud& segment : segments) Take(std::move(segment));
 }

@@ -5,6 +5,9 @@ import numpy as np
 from trajlo_report import theme
 from trajlo_report.evaluated import AXES, with_gaps
 
+# The flag `degenerate`: 0.1 m, as core/odometry/health/belief.cc has it.
+DEGENERATE = 100.0
+
 
 def mark_flags(grid, flags):
     """The same bands in all panels."""
@@ -41,13 +44,12 @@ def draw_inliers(axes, run):
     axes.legend(loc="lower left", ncol=2)
 
 
-def draw_eigenvalue(axes, run, degenerate):
+def draw_eigenvalue(axes, run):
     """The information in the weakest direction, and where it counts as degenerate."""
     axes.semilogy(run.windows["end_s"] - run.begin,
                   np.maximum(run.windows["smallest_eigenvalue"], 1.0), color=theme.STAGES["solve"])
-    if degenerate:
-        axes.axhline(degenerate, color=theme.END, lw=0.8, ls="--", label="degenerate below")
-        axes.legend(loc="best")
+    axes.axhline(DEGENERATE, color=theme.END, lw=0.8, ls="--", label="degenerate below")
+    axes.legend(loc="best")
     axes.set_ylabel("information in the\nweakest direction [1/m²]")
 
 
@@ -65,18 +67,17 @@ def draw_stages(axes, run):
     axes.legend(loc="upper left", ncol=5)
 
 
-def draw_windows(run, degenerate=None):
+def draw_windows(run):
     """Position, error where it is known, and what the estimator says of itself, on one axis."""
-    panels = [(draw_position, ())]
-    panels += [(draw_error, ())] if run.is_evaluated else []
+    panels = [draw_position] + ([draw_error] if run.is_evaluated else [])
     if len(run.windows.get("end_s", ())):
-        panels += [(draw_inliers, ()), (draw_eigenvalue, (degenerate,)), (draw_stages, ())]
+        panels += [draw_inliers, draw_eigenvalue, draw_stages]
     figure, grid = theme.plt.subplots(len(panels), 1, sharex=True, squeeze=False,
                                       figsize=(7.6, 1.5 * len(panels) + 0.4),
                                       constrained_layout=True)
     grid = grid[:, 0]
-    for axes, (function, more) in zip(grid, panels):
-        function(axes, run, *more)
+    for axes, draw in zip(grid, panels):
+        draw(axes, run)
     mark_flags(grid, run.flags)
     grid[-1].set_xlabel("time [s]")
     figure.align_ylabels(grid)

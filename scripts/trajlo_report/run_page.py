@@ -2,15 +2,13 @@
 """The page of a run, and its figures."""
 import pathlib
 
-import yaml
-
 from trajlo_report import (figures_evaluation, figures_map, figures_run, files, names, page,
                            run_data, run_summary, theme, view, view_cloud)
 
 MAP_CAPTION = "Map and path from above, from the front and from the side, on one scale"
 
 
-def draw_figures(run, folder, config, formats):
+def draw_figures(run, folder, formats):
     """The figures of the run itself."""
     ceiling = view_cloud.ceiling_cut(run.cloud.points, run.positions) if run.cloud else None
     theme.save(figures_map.draw_thumbnail(run, ceiling), folder / "thumbnail", ("png",), dpi=140)
@@ -21,9 +19,7 @@ def draw_figures(run, folder, config, formats):
     path = theme.save(figures_map.draw_views(run, ceiling), folder / "map",
                       sorted(formats, key=lambda kind: kind != "png"), dpi=170)[0]
     figures = [{"path": path, "caption": caption, "width": 1080}]
-    sigma_m = config.get("expert", {}).get("lost", {}).get("degenerate_sigma_m")
-    degenerate = 1.0 / sigma_m**2 if sigma_m else None
-    path = theme.save(figures_run.draw_windows(run, degenerate), folder / "windows",
+    path = theme.save(figures_run.draw_windows(run), folder / "windows",
                       formats, dpi=170)[0]
     said = "Red: flagged. " if run.flags else ""
     figures.append({"path": path, "width": 1080, "caption": f"Over time. {said}Times are means over "
@@ -38,18 +34,12 @@ def title_of(run_json, result):
 
 
 def read_config(result):
-    """The text of config.yaml, and its options."""
     file = result / "config.yaml"
-    if not file.is_file():
-        return "there is no config.yaml\n", {}
-    text = file.read_text()
-    options = yaml.safe_load(text)
-    return text, options if isinstance(options, dict) else {}
+    return file.read_text() if file.is_file() else "there is no config.yaml\n"
 
 
 def contents(result, output, evaluation, title, points, formats):
     """Draws, and returns what the page shows."""
-    text, options = read_config(result)
     estimates = files.read_evaluation(evaluation)[1] if evaluation else []
     run_json = {}
     if (result / "run.json").is_file():
@@ -67,7 +57,7 @@ def contents(result, output, evaluation, title, points, formats):
     theme.apply()
     if run is not None:
         missing = run.missing
-        figures = draw_figures(run, folder, options, formats)
+        figures = draw_figures(run, folder, formats)
         unavailable = view.missing_library()
         if unavailable:
             missing.append(unavailable)
@@ -81,7 +71,7 @@ def contents(result, output, evaluation, title, points, formats):
             "evaluation_figures": figures_evaluation.draw_all(estimates, folder, dpi=170,
                                                                formats=formats),
             "understood_as": run_json.get("input", {}).get("understood_as", []),
-            "config": text, "numbers": page.flatten(run_json)}
+            "config": read_config(result), "numbers": page.flatten(run_json)}
 
 
 def write(result, output, evaluation=None, title="", points=view_cloud.BUDGET,

@@ -83,5 +83,5 @@ def write_result(folder, seconds=10.0, flags=None, scans=True, map_points=4000,
     write_windows(folder / "windows.csv", times, flags or {})
     write_flags(folder / "flags.csv", times, flags or {})
     (folder / "run.json").write_text(json.dumps(run_json(seconds)))
-    (folder / "config.yaml").write_text("expert:\n  lost:\n    degenerate_sigma_m: 0.1\n")
+    (folder / "config.yaml").write_text("window:\n  segments: 5\n")
     return folder

@@ -14,6 +14,9 @@ constexpr double kMaxCorrection_m = 3.0;
 constexpr double kMaxCorrection_rad = 1.0;
 constexpr double kMaxSpeed_m_s = 100.0;
 constexpr double kMaxTurnRate_rad_s = 60.0;
+/// A direction counts as degenerate if the points of a window hold it to a larger standard
+/// deviation than this; in a well-spread scene it is 0.01 m.
+constexpr double kDegenerate_m = 0.1;
 
 }  // namespace
 
@@ -37,8 +40,7 @@ void Revert(const std::vector<SE3>& poses, Window* window) {
   for (Segment& segment : window->segments) segment.registration = {};
 }
 
-void Judge(const LostOptions& options, double points_per_error, Window* window,
-           WindowStatistics* statistics) {
+void Judge(double points_per_error, Window* window, WindowStatistics* statistics) {
   Segment& newest = window->segments.back();
   newest.spurious = SpuriousInformationOf(newest.points, window->Pose(window->size() - 1),
                                           newest.T_world_end, window->noise);
@@ -52,8 +54,7 @@ void Judge(const LostOptions& options, double points_per_error, Window* window,
   const WindowCondition condition = ConditionOf(*window, points_per_error);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;
-  const double sigma_m = options.degenerate_sigma_m;
-  if (condition.smallest_eigenvalue * sigma_m * sigma_m < 1.0) {
+  if (condition.smallest_eigenvalue * kDegenerate_m * kDegenerate_m < 1.0) {
     statistics->flags |= kFlagDegenerate;
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/odometry/health/loss_watch.h"
+#include "core/odometry/health/window_statistics.h"
 #include "core/odometry/window/window.h"
 
 namespace trajlo {
@@ -19,7 +19,6 @@ void Revert(const std::vector<SE3>& poses, Window* window);
 
 /// Sets the flags of a window from how its solve went and from how its points hold it. Of its
 /// segments the newest is looked at: its spurious information is found.
-void Judge(const LostOptions& options, double points_per_error, Window* window,
-           WindowStatistics* statistics);
+void Judge(double points_per_error, Window* window, WindowStatistics* statistics);
 
 }  // namespace trajlo

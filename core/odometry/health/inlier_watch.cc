@@ -27,7 +27,7 @@ bool InlierWatch::HasFew(const WindowStatistics& window) {
   const std::int64_t usual_since_ns = window.end_ns - kUsual_ns;
   recent_.push_back({window.end_ns, share, window.agreement});
   while (recent_.front().end_ns < usual_since_ns) recent_.pop_front();
-  return share < min_share_ || share < kFewOfUsual * Usual(&Window::share, usual_since_ns) ||
+  return window.HasFewInliers() || share < kFewOfUsual * Usual(&Window::share, usual_since_ns) ||
          Usual(&Window::agreement, window.end_ns - kAgreeing_ns) < kMinAgreement;
 }
 

@@ -17,9 +17,6 @@ namespace trajlo {
 ///     speed, and only what stands across does not.
 class InlierWatch {
  public:
-  /// Fewer than `min_share` are few anywhere.
-  explicit InlierWatch(double min_share) : min_share_(min_share) {}
-
   /// Takes the next window; true if too few of its points agree with the map.
   bool HasFew(const WindowStatistics& window);
 
@@ -32,7 +29,6 @@ class InlierWatch {
   /// The lower median since `begin_ns`.
   double Usual(double Window::*value, std::int64_t begin_ns) const;
 
-  double min_share_;
   std::deque<Window> recent_;  ///< Those of the last ten seconds.
 };
 

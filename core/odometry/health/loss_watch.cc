@@ -7,8 +7,10 @@
 namespace trajlo {
 namespace {
 
-/// Lost, when of all windows of this time ...
-constexpr double kSpan_s = 3.0;
+/// Lost, when the map grew with what was seen for so long, and still explains few of the points.
+constexpr std::int64_t kFewPoints_ns = 1'000'000'000;
+/// Or when of all windows of this time ...
+constexpr std::int64_t kSpan_ns = 3'000'000'000;
 /// ... more than this share did not settle, or were reverted: planes that never settle are not
 /// those of the scene. A fast turn to and fro leaves half of them unsettled, at the right place ...
 constexpr double kMaxUnsettledShare = 0.8;
@@ -17,8 +19,6 @@ constexpr double kMaxDoubtfulShare = 0.5;
 /// These do not: that the rounds ran out says no more than that a window is unsettled, and in a
 /// direction that is left open the planes may be those of the scene.
 constexpr unsigned kNoDoubt = kFlagNotConverged | kFlagDegenerate;
-
-std::int64_t Nanoseconds(double s) { return static_cast<std::int64_t>(s * 1e9); }
 
 }  // namespace
 
@@ -31,19 +31,19 @@ std::optional<std::int64_t> LossWatch::Update(const WindowStatistics& window) {
 }
 
 bool LossWatch::TooFewInliers(const WindowStatistics& window) {
-  if (window.InlierShare() >= options_.min_inlier_share) {
+  if (!window.HasFewInliers()) {
     few_since_ns_.reset();
     return false;
   }
   if (!few_since_ns_) few_since_ns_ = window.end_ns;
-  return window.end_ns - *few_since_ns_ >= Nanoseconds(options_.max_duration_s);
+  return window.end_ns - *few_since_ns_ >= kFewPoints_ns;
 }
 
 bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   const bool is_unsettled = (window.flags & kFlagReverted) != 0 || window.IsRestless();
   const bool is_doubtful = is_unsettled && (window.flags & ~kNoDoubt) != 0;
   recent_.push_back({window.end_ns, is_unsettled, is_doubtful});
-  const std::int64_t begin_ns = window.end_ns - Nanoseconds(kSpan_s);
+  const std::int64_t begin_ns = window.end_ns - kSpan_ns;
   while (recent_.front().end_ns < begin_ns) {
     recent_.pop_front();
     span_is_full_ = true;

@@ -34,6 +34,9 @@ struct ReturnSweep {
 /// recording's first interval, then the sweep is looked for wherever the body can be.
 class ReturnSearch {
  public:
+  /// When so much data has come and the place is not found, the estimator is lost.
+  static constexpr double kMaxSearch_s = 5.0;
+
   ReturnSearch(const LastSeen& last, const MeanAttitude& attitude, const OdometryOptions& options)
       : last_(last), attitude_(attitude), options_(options) {}
 
@@ -42,8 +45,8 @@ class ReturnSearch {
   void Add(SegmentCloud segment);
   /// Whether enough has come since the last look.
   bool IsDue() const;
-  /// Whether it has looked long enough (LostOptions::kMaxSearch_s of data).
-  bool IsHopeless() const { return searched_s_ >= LostOptions::kMaxSearch_s; }
+  /// Whether it has looked long enough (kMaxSearch_s of data).
+  bool IsHopeless() const { return searched_s_ >= kMaxSearch_s; }
   bool HasPoints() const { return !segments_.empty(); }
 
   ReturnSweep Look(const MapPyramid& map, ThreadPool* threads);

@@ -73,8 +73,7 @@ TEST(ConfigCompleteness, EveryFieldOfTheOptionsHasAKey) {
   EXPECT_EQ(FieldCount<MarginalizationOptions>(), KeysIn("marginalization"));
   EXPECT_EQ(FieldCount<WindowOptions>(), KeysIn("window"));
   EXPECT_EQ(FieldCount<InitializationOptions>(), KeysIn("initialization"));
-  EXPECT_EQ(FieldCount<LostOptions>(), KeysIn("lost"));
-  EXPECT_EQ(FieldCount<OdometryOptions>(), 9 + KeysIn(""));  // Nine sections.
+  EXPECT_EQ(FieldCount<OdometryOptions>(), 8 + KeysIn(""));  // Eight sections.
   EXPECT_EQ(FieldCount<RecordingOptions>(), KeysIn("input"));
 }
 

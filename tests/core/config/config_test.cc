@@ -55,9 +55,9 @@ TEST(Config, KeyInTheWrongSectionIsRecognisedByItsLastPart) {
 }
 
 TEST(Config, UnknownKeyWithoutANearOneListsItsSection) {
-  EXPECT_THAT(
-      LoadingError("expert: {lost: {xyzzyplugh: 3}}"),
-      AllOf(HasSubstr("expert.lost.min_inlier_share"), HasSubstr("expert.lost.max_duration_s")));
+  EXPECT_THAT(LoadingError("expert: {marginalization: {xyzzyplugh: 3}}"),
+              AllOf(HasSubstr("expert.marginalization.enabled"),
+                    HasSubstr("expert.marginalization.first_estimate_jacobians")));
   EXPECT_THAT(LoadingError("xyzzyplugh: 3"), HasSubstr("--show_config"));
 }
 

@@ -187,7 +187,7 @@ TEST(Odometry, KeepsItsOwnCopyOfTheOptions) {
   auto options = std::make_unique<OdometryOptions>(RoomOptions());
   Odometry odometry(*options);
   options->window.segments = 1;
-  options->lost.min_inlier_share = 1.0;
+  options->registration.sigma_m = 10.0;
   options.reset();
   for (int i = 0; i < 10; ++i) odometry.AddScan(world.Sweep(i));
   odometry.Finish();

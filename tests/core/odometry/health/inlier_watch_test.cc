@@ -6,8 +6,6 @@
 namespace trajlo {
 namespace {
 
-constexpr double kMinShare = 0.3;
-
 /// The i-th window, 0.03 s after the one before.
 WindowStatistics Window(int i, double share, double agreement = 0.97) {
   WindowStatistics window;
@@ -20,7 +18,7 @@ WindowStatistics Window(int i, double share, double agreement = 0.97) {
 
 TEST(InlierWatch, WhatIsFewDependsOnWhatIsUsual) {
   for (const double usual : {0.95, 0.6, 0.5}) {
-    InlierWatch watch(kMinShare);
+    InlierWatch watch;
     for (int i = 0; i < 50; ++i) ASSERT_FALSE(watch.HasFew(Window(i, usual))) << i;
     EXPECT_FALSE(watch.HasFew(Window(50, 0.7 * usual)));
     EXPECT_TRUE(watch.HasFew(Window(51, 0.62 * usual)));
@@ -29,13 +27,13 @@ TEST(InlierWatch, WhatIsFewDependsOnWhatIsUsual) {
 }
 
 TEST(InlierWatch, SomeAreFewAnywhere) {
-  InlierWatch watch(kMinShare);
+  InlierWatch watch;
   for (int i = 0; i < 50; ++i) EXPECT_TRUE(watch.HasFew(Window(i, 0.29)));
   EXPECT_FALSE(watch.HasFew(Window(50, 0.31)));
 }
 
 TEST(InlierWatch, ElsewhereSomethingElseBecomesUsual) {
-  InlierWatch watch(kMinShare);
+  InlierWatch watch;
   int i = 0;
   while (i < 1000) ASSERT_FALSE(watch.HasFew(Window(i++, 0.95)));
   // From a hall into a wood.
@@ -46,7 +44,7 @@ TEST(InlierWatch, ElsewhereSomethingElseBecomesUsual) {
 }
 
 TEST(InlierWatch, FewAreThoseThatAgreeIfItLasts) {
-  InlierWatch watch(kMinShare);
+  InlierWatch watch;
   int i = 0;
   while (i < 100) ASSERT_FALSE(watch.HasFew(Window(i++, 0.95)));
   // A jerk: half a second at most.
@@ -59,7 +57,7 @@ TEST(InlierWatch, FewAreThoseThatAgreeIfItLasts) {
 }
 
 TEST(InlierWatch, AWindowWithoutPointsHasFew) {
-  InlierWatch watch(kMinShare);
+  InlierWatch watch;
   EXPECT_TRUE(watch.HasFew(WindowStatistics()));
 }
 

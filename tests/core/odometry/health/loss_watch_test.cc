@@ -25,7 +25,7 @@ WindowStatistics Settling(int index, bool settles) {
 }
 
 TEST(LossWatch, IsNotLostByAShortLackOfInliers) {
-  LossWatch watch({});
+  LossWatch watch;
   for (int i = 0; i < 300; ++i) {
     const bool blind = i % 34 != 0;  // 0.99 s at a time.
     EXPECT_FALSE(watch.Update(Window(i, blind ? 2 : 90))) << i;
@@ -35,7 +35,7 @@ TEST(LossWatch, IsNotLostByAShortLackOfInliers) {
 TEST(LossWatch, IsLostSinceTheInliersWentAway) {
   // A quarter is what a wrong map explains by chance.
   for (const int few : {2, 25}) {
-    LossWatch watch({});
+    LossWatch watch;
     for (int i = 0; i < 50; ++i) ASSERT_FALSE(watch.Update(Window(i, 90)));
     for (int i = 50; i < 84; ++i) ASSERT_FALSE(watch.Update(Window(i, few))) << i;
     const auto since_ns = watch.Update(Window(84, few));
@@ -47,7 +47,7 @@ TEST(LossWatch, IsLostSinceTheInliersWentAway) {
 
 TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
   for (const bool is_reverted : {false, true}) {
-    LossWatch watch({});
+    LossWatch watch;
     // Every seventh settles: no unbroken spell, and yet lost after the span.
     int first_lost = -1;
     for (int i = 0; i < 200 && first_lost < 0; ++i) {
@@ -65,7 +65,7 @@ TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
 TEST(LossWatch, AsksForMoreWindowsThatSettleWherePosesHaveAFlag) {
   for (const unsigned flags :
        {0u, +kFlagNotConverged, +kFlagDegenerate, +kFlagGap, +kFlagFewInliers}) {
-    LossWatch watch({});
+    LossWatch watch;
     bool is_lost = false;
     for (int i = 0; i < 200; ++i) {
       WindowStatistics window = Settling(i, i % 5 < 2);
@@ -78,7 +78,7 @@ TEST(LossWatch, AsksForMoreWindowsThatSettleWherePosesHaveAFlag) {
 
 /// Flags alone are no loss: windows that settle may leave a direction open for ever.
 TEST(LossWatch, IsNotLostWhileWindowsSettleWhateverTheirFlags) {
-  LossWatch watch({});
+  LossWatch watch;
   for (int i = 0; i < 300; ++i) {
     WindowStatistics window = Settling(i, i % 5 > 1);
     window.flags = kFlagDegenerate;
@@ -88,7 +88,7 @@ TEST(LossWatch, IsNotLostWhileWindowsSettleWhateverTheirFlags) {
 
 /// Nor while predictions are far off: so it is in fast turns.
 TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
-  LossWatch watch({});
+  LossWatch watch;
   for (int i = 0; i < 300; ++i) {
     WindowStatistics window = Settling(i, i % 2 == 0);
     window.correction.rotation_rad = 0.1;
