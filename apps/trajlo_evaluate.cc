@@ -111,10 +111,12 @@ Relative errors
   --rpe_tolerance=0.1         how far lengths in s, and in m from every pose, may be off, relative to
                               the length (inf for seconds exactly as the TUM RGB-D benchmark)
 
-An x marks runs that diverged. A run diverged if its absolute error is not finite, or is above both
---diverged_percent=P (10) percent of the path and 0.5 m, or is above --diverged_m=D (0: no such
-rule); or if it covers less than --min_completeness=SHARE (0.5) of the poses of the truth. A pose is
-covered if it lies between two poses of the estimate that are at most 1 s apart.
+An x marks runs that diverged or are incomplete. A run diverged if its absolute error is not finite,
+or is above both --diverged_percent=P (10) percent of the path and 0.5 m, or is above --diverged_m=D
+(0: no such rule). It is incomplete if it covers less than --min_completeness=SHARE (0.5) of the
+poses of the truth. A pose is covered if it lies between two poses of the estimate that are at most
+1 s apart. A ? marks absolute rotation errors that are mostly a turn which the alignment leaves
+open, as positions on a line fix no rotation about it: --alignment=origin, or relative errors, tell.
 
 More flags: --quiet (print warnings and errors only), -h, --help, --version
 

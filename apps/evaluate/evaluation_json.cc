@@ -82,9 +82,11 @@ Json KittiJson(const KittiErrors& kitti) {
 Json AlignmentJson(const Alignment& alignment) {
   Eigen::Matrix<double, 3, 4> T;
   T << alignment.R, alignment.t;
+  const std::optional<double> sigma_deg = RotationSigmaDeg(alignment);
   return {{"kind", AlignmentName(alignment.kind)},
           {"T", RowsJson(T)},
           {"scale", alignment.scale},
+          {"rotation_sigma_deg", sigma_deg ? Finite(*sigma_deg) : Json(nullptr)},
           {"pairs_used", alignment.pairs_used}};
 }
 
@@ -105,6 +107,7 @@ Json EstimateJson(const EstimateReport& report) {
                {"evaluated", report.evaluation.has_value()},
                {"diverged", report.Diverged()},
                {"divergence_reason", report.DivergenceReason()},
+               {"incomplete", report.evaluation && report.evaluation->incomplete},
                {"trajectory", TrajectoryJson(report.trajectory)}};
   if (!report.evaluation) {
     for (const char* key : {"completeness", "paired_share", "path_length_m", "duration_s", "ate",
@@ -123,6 +126,7 @@ Json EstimateJson(const EstimateReport& report) {
   json["path_length_m"] = Finite(e.path_length_m);
   json["duration_s"] = e.duration_s;
   json["ate"] = PoseErrorsJson(e.absolute);
+  json["ate"]["rotation_determined"] = e.rotation_determined;
   json["rpe"] = Json::array();
   for (const RelativeEvaluation& relative : e.relative) {
     json["rpe"].push_back(RelativeJson(relative));

@@ -115,7 +115,8 @@ std::string OfOne(const EvaluateRequest& request, const EvaluationReport& report
       rows.push_back(StatisticsRow(name + " [m]", s.translation_m, 4));
     }
     if (s.rotation_deg.count > 0) {
-      rows.push_back(StatisticsRow(name + " [deg]", s.rotation_deg, 3));
+      const bool in_doubt = &s == &e.absolute && !e.rotation_determined;
+      rows.push_back(StatisticsRow(name + (in_doubt ? " [deg] ?" : " [deg]"), s.rotation_deg, 3));
     }
     if (s.translation_m.count == 0 && s.point_distance_m.count > 0) {
       rows.push_back(StatisticsRow(name + " dist. [m]", s.point_distance_m, 4));
@@ -130,7 +131,9 @@ std::string OfOne(const EvaluateRequest& request, const EvaluationReport& report
     }
   }
   text += "\n" + Aligned(rows) + "\n" + reasons + Line("KITTI", KittiText(e));
-  if (estimate.Diverged()) text += Line("DIVERGED x", e.divergence_reason);
+  if (estimate.Diverged()) {
+    text += (e.incomplete ? "INCOMPLETE x  " : "DIVERGED x  ") + e.divergence_reason + "\n";
+  }
   return text;
 }
 
@@ -139,9 +142,12 @@ std::string OfSeveral(const EvaluateRequest& request, const EvaluationReport& re
   std::vector<Row> rows = {{"estimate", "pairs", "covered"}};
   for (const MetricColumn& column : columns) rows[0].push_back(column.title + "  ");
   std::string notes;
+  bool doubts = false;
   for (const EstimateReport& estimate : report.estimates) {
     if (estimate.Diverged()) {
-      notes += "x " + estimate.name + ": " + estimate.DivergenceReason() + "\n";
+      const bool incomplete = estimate.evaluation && estimate.evaluation->incomplete;
+      notes += "x " + estimate.name + (incomplete ? " is incomplete: " : ": ") +
+               estimate.DivergenceReason() + "\n";
     }
     if (!estimate.evaluation) {
       rows.push_back({estimate.name, "0", ""});
@@ -155,9 +161,12 @@ std::string OfSeveral(const EvaluateRequest& request, const EvaluationReport& re
                     FormatText("%.1f %%", 100.0 * e.completeness)});
     for (const MetricColumn& column : columns) {
       const std::string value = FormatValue(column.value(e), column.decimals);
-      const bool best = !estimate.Diverged() && value == BestValue(report, column);
+      const bool in_doubt = column.IsInDoubt(e);
+      const bool best = !estimate.Diverged() && !in_doubt && value == BestValue(report, column);
+      doubts = doubts || in_doubt;
       rows.back().push_back(value.empty() ? "-  "
                                           : value + (estimate.Diverged() ? " x"
+                                                     : in_doubt          ? " ?"
                                                      : best              ? " *"
                                                                          : "  "));
     }
@@ -166,7 +175,7 @@ std::string OfSeveral(const EvaluateRequest& request, const EvaluationReport& re
       Line("truth", TrajectoryText(report.truth)) +
       Line("compared", ComparedText(request, report)) + "\n" + Aligned(rows) +
       "\nrmse; * the best; x diverged: " + DivergenceRule(request.options.divergence) + "\n" +
-      notes;
+      (doubts ? "? mostly a turn that the alignment leaves open\n" : "") + notes;
   return text;
 }
 

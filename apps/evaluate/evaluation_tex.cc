@@ -37,8 +37,9 @@ std::string EvaluationTex(const EvaluateRequest& request, const EvaluationReport
         continue;
       }
       const std::string value = FormatValue(column.value(*estimate.evaluation), column.decimals);
-      const bool best = !value.empty() && value == BestValue(report, column);
-      tex += value.empty() ? "--" : best ? "\\textbf{" + value + "}" : value;
+      const bool in_doubt = column.IsInDoubt(*estimate.evaluation);
+      const bool best = !value.empty() && !in_doubt && value == BestValue(report, column);
+      tex += value.empty() || in_doubt ? "--" : best ? "\\textbf{" + value + "}" : value;
     }
     tex += " \\\\\n";
   }

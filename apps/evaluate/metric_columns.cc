@@ -33,7 +33,8 @@ void AddAbsolute(std::vector<MetricColumn>* columns) {
     const bool main = member == &ErrorStatistics::rmse;
     columns->push_back(
         {"ate_rotation_" + std::string(name) + "_deg", "ATE [deg]", 2, main,
-         [m = member](const Evaluation& e) { return IfCounted(e.absolute.rotation_deg, m); }});
+         [m = member](const Evaluation& e) { return IfCounted(e.absolute.rotation_deg, m); },
+         true});
   }
 }
 
@@ -101,7 +102,7 @@ std::string BestValue(const EvaluationReport& report, const MetricColumn& column
   std::optional<double> best;
   std::size_t candidates = 0;
   for (const EstimateReport& estimate : report.estimates) {
-    if (estimate.Diverged()) continue;
+    if (estimate.Diverged() || column.IsInDoubt(*estimate.evaluation)) continue;
     const std::optional<double> value = column.value(*estimate.evaluation);
     if (!value) continue;
     ++candidates;

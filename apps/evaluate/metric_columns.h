@@ -19,6 +19,10 @@ struct MetricColumn {
   bool main = false;
   /// Nothing if it was not computed.
   std::function<std::optional<double>(const Evaluation&)> value;
+  /// It is an absolute rotation error, which depends on how well the alignment fixes the rotation.
+  bool absolute_rotation = false;
+
+  bool IsInDoubt(const Evaluation& e) const { return absolute_rotation && !e.rotation_determined; }
 };
 
 /// Absolute errors, relative errors of the pieces asked for, and KITTI's errors.
@@ -28,8 +32,8 @@ std::vector<MetricColumn> MetricColumns(const std::vector<RelativeErrorOptions>&
 std::vector<MetricColumn> MainColumns(const EvaluationReport& report,
                                       const std::vector<RelativeErrorOptions>& pieces);
 
-/// The smallest value of a column among the estimates that did not diverge, as it is printed;
-/// empty if there are fewer than two to choose from.
+/// The smallest value of a column among the estimates that did not diverge, and those that are not
+/// in doubt, as it is printed; empty if there are fewer than two to choose from.
 std::string BestValue(const EvaluationReport& report, const MetricColumn& column);
 
 /// "0.023"; empty for nothing.

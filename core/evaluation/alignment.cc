@@ -15,9 +15,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Ratios of the second singular value to the first. Rounding alone leaves about 1e-16 on a line.
+// Ratio of the second singular value to the first. Rounding alone leaves about 1e-16 on a line.
 constexpr double kUndetermined = 1e-13;
-constexpr double kPoorlyDetermined = 1e-6;
 
 std::vector<PosePair> FirstPairs(const std::vector<PosePair>& pairs,
                                  const AlignmentOptions& options) {
@@ -30,6 +29,20 @@ std::vector<PosePair> FirstPairs(const std::vector<PosePair>& pairs,
     count = within;
   }
   return {pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+std::string PositionsText(std::size_t pairs) {
+  if (pairs == 1) return "it rests on a single pair of poses";
+  return "the positions of the " + std::to_string(pairs) +
+         " pairs that it rests on are a single place or lie on a straight line";
+}
+
+double RootMeanSquareError(const std::vector<PosePair>& pairs, const Alignment& alignment) {
+  double sum = 0.0;
+  for (const PosePair& pair : pairs) {
+    sum += ((alignment * pair.estimate).translation() - pair.truth.translation()).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
 }  // namespace
@@ -71,8 +84,8 @@ Alignment Umeyama(const std::vector<PosePair>& pairs, bool with_scale) {
   const Vector3d& d = svd.singularValues();
   if (!(d[1] > std::max(kUndetermined * d[0], std::numeric_limits<double>::epsilon()))) {
     throw EvaluationError(
-        "the alignment is undetermined: the positions of the " + std::to_string(pairs.size()) +
-        " pairs that it rests on are a single place or lie on a straight line\n  "
+        "the alignment is undetermined: " + PositionsText(pairs.size()) +
+        "\n  "
         "--alignment=origin aligns by the attitude of the first pose, --alignment=none not at all");
   }
   Vector3d s = Vector3d::Ones();
@@ -81,12 +94,23 @@ Alignment Umeyama(const std::vector<PosePair>& pairs, bool with_scale) {
   if (with_scale) alignment.scale = d.dot(s) / variance;
   alignment.t = mean_truth - alignment.scale * alignment.R * mean_estimate;
   alignment.pairs_used = pairs.size();
-  if (d[1] < kPoorlyDetermined * d[0]) {
-    alignment.warning =
-        "the positions that the alignment rests on lie nearly on a straight line; the rotation "
-        "about it is poorly determined";
+  // Turned by a small angle about axis i, the positions move by that times the root of this.
+  const Vector3d reach = d.cwiseProduct(s);
+  const double residual = RootMeanSquareError(pairs, alignment);
+  alignment.rotation_axes = svd.matrixU();
+  for (int i = 0; i < 3; ++i) {
+    alignment.rotation_sigma_rad[i] =
+        residual / std::sqrt(std::max(alignment.scale * (reach.sum() - reach[i]),
+                                      std::numeric_limits<double>::min()));
   }
   return alignment;
+}
+
+std::optional<double> RotationSigmaDeg(const Alignment& alignment) {
+  const bool by_positions =
+      alignment.kind == AlignmentKind::kSe3 || alignment.kind == AlignmentKind::kSim3;
+  if (!by_positions) return std::nullopt;
+  return alignment.rotation_sigma_rad.maxCoeff() * (180.0 / M_PI);
 }
 
 Alignment ComputeAlignment(const std::vector<PosePair>& pairs, const AlignmentOptions& options) {
@@ -110,6 +134,7 @@ Alignment ComputeAlignment(const std::vector<PosePair>& pairs, const AlignmentOp
       alignment = Umeyama(FirstPairs(pairs, options), true);
       alignment.R.setIdentity();
       alignment.t.setZero();
+      alignment.rotation_sigma_rad.setZero();
       break;
   }
   alignment.kind = options.kind;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,11 @@ struct Alignment {
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
   double scale = 1.0;
   std::size_t pairs_used = 0;
+  /// How well the positions fix the rotation. A turn by sigma about its axis, a column in the
+  /// truth's world, moves the positions by as much as they differ (rms): one error along the path
+  /// counts once, however many poses have it. Zero where positions do not decide the rotation.
+  Eigen::Matrix3d rotation_axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d rotation_sigma_rad = Eigen::Vector3d::Zero();
   /// Not empty: why it should not be trusted much.
   std::string warning;
 
@@ -47,6 +53,9 @@ struct Alignment {
 /// line, leaves the rotation undetermined. Positions so far out that their squares are not finite
 /// (a run that exploded) are left where they are, with a warning.
 Alignment Umeyama(const std::vector<PosePair>& pairs, bool with_scale);
+
+/// The largest standard deviation of the rotation; nothing if positions do not decide it.
+std::optional<double> RotationSigmaDeg(const Alignment& alignment);
 
 /// Throws EvaluationError if the alignment is undetermined.
 Alignment ComputeAlignment(const std::vector<PosePair>& pairs, const AlignmentOptions& options);

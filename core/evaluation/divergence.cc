@@ -16,10 +16,19 @@ std::string DivergenceReason(const ErrorStatistics& ate_m, double path_length_m,
                       ate_m.rmse, 100.0 * options.ate_share_of_path, path_length_m);
   }
   if (completeness < options.min_completeness) {
-    return FormatText("the estimate covers %.1f %% of the ground truth, less than %g %%",
-                      100.0 * completeness, 100.0 * options.min_completeness);
+    return FormatText(
+        "the estimate covers %.1f %% of the ground truth, less than %g %% (--min_completeness=0 "
+        "accepts it)",
+        100.0 * completeness, 100.0 * options.min_completeness);
   }
   return "";
+}
+
+bool IsIncomplete(const ErrorStatistics& ate_m, double path_length_m, double completeness,
+                  DivergenceOptions options) {
+  if (completeness >= options.min_completeness) return false;
+  options.min_completeness = 0.0;
+  return DivergenceReason(ate_m, path_length_m, completeness, options).empty();
 }
 
 std::string DivergenceRule(const DivergenceOptions& options) {

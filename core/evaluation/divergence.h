@@ -23,6 +23,10 @@ struct DivergenceOptions {
 std::string DivergenceReason(const ErrorStatistics& ate_m, double path_length_m,
                              double completeness, const DivergenceOptions& options);
 
+/// Whether that reason is that the estimate is short, and no other.
+bool IsIncomplete(const ErrorStatistics& ate_m, double path_length_m, double completeness,
+                  DivergenceOptions options);
+
 /// The rules in a sentence.
 std::string DivergenceRule(const DivergenceOptions& options);
 

@@ -8,6 +8,7 @@
 #include "core/evaluation/absolute_error.h"
 #include "core/evaluation/completeness.h"
 #include "core/evaluation/evaluation_error.h"
+#include "core/evaluation/rotation_doubt.h"
 #include "core/evaluation/stamp_search.h"
 #include "core/io/format_text.h"
 
@@ -125,12 +126,20 @@ Evaluation Evaluate(const TimedPoses& estimate, const TimedPoses& truth,
   for (PosePair& pair : evaluation.pairs) pair.estimate = evaluation.alignment * pair.estimate;
   evaluation.errors = AbsoluteErrors(evaluation.pairs, evaluation.has_orientation);
   evaluation.absolute = Statistics(evaluation.errors);
+  if (evaluation.has_orientation) {
+    const RotationDoubt doubt = JudgeRotations(evaluation.pairs, evaluation.alignment);
+    evaluation.rotation_determined = doubt.determined;
+    evaluation.warnings.insert(evaluation.warnings.end(), doubt.warnings.begin(),
+                               doubt.warnings.end());
+  }
   for (const RelativeErrorOptions& relative : options.relative) {
     evaluation.relative.push_back(EvaluateRelative(evaluation, counted.t_ns, relative));
   }
   evaluation.divergence_reason =
       DivergenceReason(evaluation.absolute.translation_m, evaluation.path_length_m,
                        evaluation.completeness, options.divergence);
+  evaluation.incomplete = IsIncomplete(evaluation.absolute.translation_m, evaluation.path_length_m,
+                                       evaluation.completeness, options.divergence);
   return evaluation;
 }
 

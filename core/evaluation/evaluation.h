@@ -63,6 +63,8 @@ struct Evaluation {
   Alignment alignment;
   PoseErrors errors;
   PoseErrorStatistics absolute;
+  /// False: the absolute rotation errors are mostly a turn that the alignment leaves open.
+  bool rotation_determined = true;
   std::vector<RelativeEvaluation> relative;
   /// Nothing, and a reason, without orientation or if the path is too short.
   std::optional<KittiErrors> kitti;
@@ -77,6 +79,8 @@ struct Evaluation {
   double duration_s = 0.0;
   /// Empty: the run succeeded.
   std::string divergence_reason;
+  /// It counts as failed for being short alone; where it is, its errors are small.
+  bool incomplete = false;
   std::vector<std::string> warnings;
 };
 

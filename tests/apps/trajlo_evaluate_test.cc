@@ -105,6 +105,49 @@ TEST_F(TrajloEvaluateTest, ARunThatExplodedIsDivergedAndNotAnError) {
   EXPECT_TRUE(Json()["estimates"][0]["ate"]["translation_m"]["rmse"].is_null());
 }
 
+TEST_F(TrajloEvaluateTest, AShortRunIsIncompleteAndNotDiverged) {
+  WritePoses("short.tum", SmoothPoses(1.0, 0.1, 80));
+  const Outcome outcome = Call({"short.tum", "truth.tum", Output(), "--report=false"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("INCOMPLETE x  the estimate covers 39.6 %"),
+                                 HasSubstr("--min_completeness=0"), Not(HasSubstr("DIVERGED"))));
+  EXPECT_EQ(Json()["estimates"][0]["incomplete"], true);
+  EXPECT_THAT(Call({"short.tum", "good.tum", "--truth=" + Path("truth.tum")}).out,
+              HasSubstr("x short is incomplete: the estimate covers"));
+  EXPECT_THAT(Call({"short.tum", "truth.tum", "--min_completeness=0"}).out,
+              Not(HasSubstr("INCOMPLETE")));
+}
+
+TEST_F(TrajloEvaluateTest, RotationErrorsThatTheAlignmentLeavesOpenAreMarked) {
+  TimedPoses truth, estimate;
+  for (int i = 0; i < 100; ++i) {
+    const double t_s = 0.1 * i;
+    truth.t_ns.push_back(Nanoseconds(t_s));
+    truth.T_world_body.emplace_back(
+        Eigen::Translation3d(t_s, 0.0, 1e-4 * std::sin(t_s)) *
+        Eigen::AngleAxisd(0.1 * std::sin(t_s), Eigen::Vector3d::UnitX()));
+    estimate.t_ns.push_back(truth.t_ns.back());
+    estimate.T_world_body.push_back(truth.T_world_body.back());
+    estimate.T_world_body.back().pretranslate(
+        Eigen::Vector3d(0.0, 0.002 * std::sin(2.0 * t_s), 0.002 * std::sin(t_s)));
+  }
+  WritePoses("line.tum", truth);
+  WritePoses("off.tum", estimate);
+  const Outcome one = Call({"off.tum", "line.tum", Output(), "--report=false"});
+  EXPECT_THAT(one.err, HasSubstr("ATE [deg] says little"));
+  EXPECT_THAT(one.out, HasSubstr("ATE [deg] ?"));
+  const nlohmann::json json = Json()["estimates"][0];
+  EXPECT_EQ(json["ate"]["rotation_determined"], false);
+  EXPECT_GT(json["alignment"]["rotation_sigma_deg"], 10.0);
+  EXPECT_THAT(ReadFile(temp_ / "out/evaluation.csv"), HasSubstr(",rotation_determined,"));
+  const Outcome both = Call({"off.tum", "line.tum", "--truth=" + Path("line.tum")});
+  EXPECT_THAT(both.out, AllOf(HasSubstr(" ? "), HasSubstr("? mostly a turn")));
+  const Outcome by_origin = Call(
+      {"off.tum", "line.tum", "--alignment=origin", Output(), "--report=false", "--overwrite"});
+  EXPECT_THAT(by_origin.err, Not(HasSubstr("says little")));
+  EXPECT_TRUE(Json()["estimates"][0]["alignment"]["rotation_sigma_deg"].is_null());
+}
+
 TEST_F(TrajloEvaluateTest, TheOutputHoldsEveryNumber) {
   const Outcome outcome =
       Call({"good.tum", "lost.tum", "--truth=" + Path("truth.tum"), Output(), "--report=false"});

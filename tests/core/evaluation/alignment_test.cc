@@ -87,12 +87,22 @@ TEST(Alignment, PlacesThatLeaveTheRotationOpenAreRefused) {
   EXPECT_LT(LargestError(ComputeAlignment(line, {AlignmentKind::kOrigin}), line), 1e-12);
 }
 
-TEST(Alignment, AnAlmostStraightPathIsMentioned) {
-  TimedPoses truth = OnALine({0.0, 10.0, 20.0, 30.0});
-  truth.T_world_body[2].translation().y() = 0.001;
-  EXPECT_THAT(ComputeAlignment(Moved().Pairs(truth), {}).warning,
-              ::testing::HasSubstr("straight line"));
-  EXPECT_EQ(ComputeAlignment(Moved().Pairs(SmoothPoses(0.0, 0.1, 50)), {}).warning, "");
+TEST(Alignment, KnowsHowWellItFixesTheRotation) {
+  // A rectangle of 40 m by 2 m, and errors of 0.1 m along z.
+  TimedPoses truth = OnALine({-20.0, -20.0, 20.0, 20.0});
+  for (const int i : {0, 2}) truth.T_world_body[i].translation().y() = 1.0;
+  for (const int i : {1, 3}) truth.T_world_body[i].translation().y() = -1.0;
+  std::vector<PosePair> pairs = Moved().Pairs(truth);
+  // Neither a shift nor a turn undoes these.
+  for (const int i : {0, 3}) pairs[i].truth.translation().z() += 0.1;
+  for (const int i : {1, 2}) pairs[i].truth.translation().z() -= 0.1;
+  const Alignment alignment = ComputeAlignment(pairs, {});
+  EXPECT_NEAR(std::abs(alignment.rotation_axes(0, 0)), 1.0, 1e-6);
+  EXPECT_NEAR(alignment.rotation_sigma_rad[0], 0.1 / 1.0, 1e-4);
+  EXPECT_NEAR(alignment.rotation_sigma_rad[1], 0.1 / 20.0, 1e-4);
+  EXPECT_NEAR(*RotationSigmaDeg(alignment), 5.73, 0.01);
+  EXPECT_FALSE(RotationSigmaDeg(ComputeAlignment(pairs, {AlignmentKind::kOrigin})));
+  EXPECT_FALSE(RotationSigmaDeg(ComputeAlignment(pairs, {AlignmentKind::kScale})));
 }
 
 }  // namespace

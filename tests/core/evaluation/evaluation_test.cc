@@ -22,7 +22,9 @@ TEST(Evaluation, APerfectEstimateHasNoErrors) {
   EXPECT_NEAR(e.duration_s, 9.9, 1e-9);
   EXPECT_NEAR(e.completeness, 9.9 / 20.0, 0.01);
   EXPECT_EQ(e.paired_share, 1.0);
-  EXPECT_THAT(e.divergence_reason, HasSubstr("covers"));
+  EXPECT_THAT(e.divergence_reason,
+              ::testing::AllOf(HasSubstr("covers"), HasSubstr("--min_completeness=0")));
+  EXPECT_TRUE(e.incomplete);
 }
 
 TEST(Evaluation, AnExtrinsicTakesBodyPosesToTheFrameOfTheTruth) {
@@ -66,6 +68,82 @@ TEST(Evaluation, TheFirstPoseCannotBeAlignedToAPrism) {
   EXPECT_THROW(Evaluate(SmoothPoses(0.0, 0.1, 50), truth, options), EvaluationError);
   options.truth_orientation = TruthOrientation::kUse;
   EXPECT_TRUE(Evaluate(SmoothPoses(0.0, 0.1, 50), truth, options).has_orientation);
+}
+
+/// A straight drive at 10 m/s with a slight roll, and an estimate that is off by up to 2 mm.
+void StraightDrive(TimedPoses* estimate, TimedPoses* truth) {
+  for (int i = 0; i < 100; ++i) {
+    const double t_s = 0.1 * i;
+    truth->t_ns.push_back(Nanoseconds(t_s));
+    truth->T_world_body.emplace_back(
+        Eigen::Translation3d(10.0 * t_s, 0.001 * std::sin(t_s), 0.0) *
+        Eigen::AngleAxisd(0.02 * std::sin(t_s), Eigen::Vector3d::UnitX()));
+    estimate->t_ns.push_back(truth->t_ns.back());
+    estimate->T_world_body.push_back(truth->T_world_body.back());
+    estimate->T_world_body.back().pretranslate(
+        Eigen::Vector3d(0.0, 0.002 * std::sin(2.0 * t_s), 0.002 * std::sin(t_s)));
+  }
+}
+
+TEST(Evaluation, ATurnThatTheAlignmentLeavesOpenIsNoRotationError) {
+  TimedPoses estimate, truth;
+  StraightDrive(&estimate, &truth);
+  EvaluationOptions options;
+  const Evaluation e = Evaluate(estimate, truth, options);
+  EXPECT_GT(e.absolute.rotation_deg.rmse, 10.0);  // And yet each attitude is right.
+  EXPECT_FALSE(e.rotation_determined);
+  EXPECT_THAT(e.warnings, ::testing::ElementsAre(::testing::AllOf(
+                              HasSubstr("ATE [deg] says little"), HasSubstr("RPE [deg]"),
+                              HasSubstr("--alignment=origin"))));
+  options.alignment.kind = AlignmentKind::kOrigin;
+  const Evaluation by_origin = Evaluate(estimate, truth, options);
+  EXPECT_LT(by_origin.absolute.rotation_deg.rmse, 0.01);
+  EXPECT_TRUE(by_origin.rotation_determined);
+  EXPECT_THAT(by_origin.warnings, ::testing::IsEmpty());
+}
+
+TEST(Evaluation, ARestingBodyHasNoAbsoluteRotationError) {
+  TimedPoses estimate = SmoothPoses(0.0, 0.1, 100), truth = estimate;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    estimate.T_world_body[i].translation() *= 1e-3;
+    truth.T_world_body[i].translation() = 1e-6 * truth.T_world_body[99 - i].translation();
+  }
+  const Evaluation e = Evaluate(estimate, truth, {});
+  EXPECT_GT(e.absolute.rotation_deg.rmse, 1.0);
+  EXPECT_FALSE(e.rotation_determined);
+}
+
+TEST(Evaluation, RotationErrorsOfAPathThatFixesThemAreBelieved) {
+  TimedPoses estimate = SmoothPoses(1.0, 0.1, 100);
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    estimate.T_world_body[i].translation().x() += 0.01 * std::sin(0.3 * static_cast<double>(i));
+    estimate.T_world_body[i].rotate(
+        Eigen::AngleAxisd(0.01 * std::sin(0.2 * static_cast<double>(i)), Eigen::Vector3d::UnitY()));
+  }
+  const Evaluation e = Evaluate(estimate, SmoothPoses(0.0, 0.05, 400), {});
+  EXPECT_TRUE(e.rotation_determined);
+  EXPECT_THAT(e.warnings, ::testing::IsEmpty());
+}
+
+TEST(Evaluation, AnotherFrameOfTheTruthIsSuspected) {
+  const TimedPoses estimate = SmoothPoses(1.0, 0.1, 100);
+  TimedPoses truth = SmoothPoses(0.0, 0.05, 400);
+  for (Eigen::Affine3d& T : truth.T_world_body) {
+    T.rotate(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()));
+  }
+  EXPECT_THAT(Evaluate(estimate, truth, {}).warnings,
+              ::testing::ElementsAre(::testing::AllOf(HasSubstr("the same turn of 90 deg"),
+                                                      HasSubstr("--T_body_truth"))));
+}
+
+TEST(Evaluation, QuaternionsWithTheScalarFirstAreSuspected) {
+  TimedPoses truth = SmoothPoses(0.0, 0.05, 400);
+  for (Eigen::Affine3d& T : truth.T_world_body) {
+    const Eigen::Quaterniond q(T.linear());
+    T.linear() = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).matrix();  // w x y z as x y z w.
+  }
+  EXPECT_THAT(Evaluate(SmoothPoses(1.0, 0.1, 100), truth, {}).warnings,
+              ::testing::ElementsAre(HasSubstr("w first")));
 }
 
 TEST(TimeOffset, OfTwoClocksIsFound) {
@@ -132,6 +210,9 @@ TEST(Divergence, FollowsItsRules) {
   EXPECT_THAT(reason(2.1, 20.0, 0.9), HasSubstr("10 % of the path"));
   EXPECT_EQ(reason(0.4, 1.0, 0.9), "");  // Hardly moved.
   EXPECT_THAT(reason(0.1, 20.0, 0.49), HasSubstr("49.0 %"));
+  EXPECT_TRUE(IsIncomplete(ComputeStatistics({0.1}), 20.0, 0.49, rules));
+  EXPECT_FALSE(IsIncomplete(ComputeStatistics({2.1}), 20.0, 0.49, rules));  // Diverged as well.
+  EXPECT_FALSE(IsIncomplete(ComputeStatistics({0.1}), 20.0, 0.51, rules));
   EXPECT_THAT(reason(1e200, 1e300, 1.0), HasSubstr("not finite"));
   DivergenceOptions absolute;
   absolute.ate_m = 5.0;
