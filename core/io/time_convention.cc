@@ -225,6 +225,7 @@ StampAt JudgeStamp(const TimeEvidence& evidence, const Summary& summary, TimeCon
   const StampAt by_recording = JudgeByRecording(evidence, found);
   if (by_recording != StampAt::kAuto) return by_recording;
   found->evidence += "; the stamp is assumed to mark the start (input.stamp_at)";
+  found->stamp_at_is_assumed = true;
   return StampAt::kStart;
 }
 

@@ -60,6 +60,8 @@ struct TimeConvention {
   TimeUnit unit = TimeUnit::kSeconds;
   TimeOrigin origin = TimeOrigin::kSweepStart;
   StampAt stamp_at = StampAt::kStart;
+  /// Nothing told which end the stamp marks.
+  bool stamp_at_is_assumed = false;
   /// Duration of one sweep; it separates the two ends of a sweep.
   std::int64_t sweep_ns = 0;
   /// For absolute times of another clock than the stamps': added to reach the stamps' clock.

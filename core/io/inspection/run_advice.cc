@@ -11,6 +11,7 @@ namespace {
 /// Datasets that give themselves away by their topics, in the order of their LiDARs.
 struct KnownDataset {
   const char* config;
+  const char* name;
   std::vector<std::string> topics;
   /// The config says that stamps mark the end of the sweep.
   bool stamps_at_end;
@@ -20,10 +21,18 @@ struct KnownDataset {
 
 const std::vector<KnownDataset>& KnownDatasets() {
   static const std::vector<KnownDataset> datasets = {
-      {"ntu_viral", {"/os1_cloud_node1/points", "/os1_cloud_node2/points"}, true, true},
-      {"ntu_viral_horizontal", {"/os1_cloud_node1/points"}, true, true},
-      {"ntu_viral_vertical", {"/os1_cloud_node2/points"}, true, true},
-      {"hilti2021_both", {"/os_cloud_node/points", "/livox/lidar"}, false, false},
+      {"ntu_viral",
+       "NTU VIRAL",
+       {"/os1_cloud_node1/points", "/os1_cloud_node2/points"},
+       true,
+       true},
+      {"ntu_viral_horizontal", "NTU VIRAL", {"/os1_cloud_node1/points"}, true, true},
+      {"ntu_viral_vertical", "NTU VIRAL", {"/os1_cloud_node2/points"}, true, true},
+      {"hilti2021_both",
+       "the Hilti challenge 2021",
+       {"/os_cloud_node/points", "/livox/lidar"},
+       false,
+       false},
   };
   return datasets;
 }
@@ -101,7 +110,7 @@ bool HasStartStamps(const std::vector<CloudInspection>& clouds) {
   return std::any_of(clouds.begin(), clouds.end(), [](const CloudInspection& cloud) {
     const TimeConvention& convention = cloud.convention;
     return convention.origin == TimeOrigin::kSweepStart && convention.HasPointTimes() &&
-           convention.stamp_at == StampAt::kStart;
+           convention.stamp_at == StampAt::kStart && !convention.stamp_at_is_assumed;
   });
 }
 
@@ -121,6 +130,20 @@ void AddExtrinsicRemarks(const std::vector<CloudInspection>& clouds, bool is_fol
   const std::string& first = clouds.front().topic;
   advice->remarks.push_back("to run on one LiDAR: " +
                             (is_folder ? "trajlo_run " + first : "--set input.topics=" + first));
+}
+
+/// Topics are all that a dataset is known by, and another rig may have the same.
+void AddDatasetRemark(const KnownDataset& dataset, bool config_places_lidars, RunAdvice* advice) {
+  std::string facts;
+  if (dataset.has_extrinsics && config_places_lidars) facts = "its LiDARs sit as on that rig";
+  if (dataset.stamps_at_end) {
+    facts += std::string(facts.empty() ? "" : ", and ") + "stamps mark the end of the sweep";
+  }
+  if (facts.empty()) return;
+  advice->remarks.push_back(std::string("topics are those of ") + dataset.name +
+                            "; the configuration says that " + facts +
+                            ", which is right for that dataset only (sensor.T_body_lidar, "
+                            "input.stamp_at)");
 }
 
 /// What there is to know about scans without times, and about the config that is for such.
@@ -186,6 +209,7 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
   const bool placed =
       !recording.rig_config.empty() || (dataset != nullptr && dataset->has_extrinsics);
   if (!placed) AddExtrinsicRemarks(clouds, is_folder, &advice);
+  if (dataset != nullptr) AddDatasetRemark(*dataset, recording.rig_config.empty(), &advice);
   for (const CloudInspection& cloud : clouds) AddTimeRemarks(cloud, advice.config, &advice);
   return advice;
 }

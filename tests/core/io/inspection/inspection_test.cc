@@ -263,11 +263,30 @@ TEST(AdviseRun, KnowsDatasetsByTheirTopicsAndContradictsThemByEvidence) {
   EXPECT_THAT(advice.command,
               HasSubstr(R"(["/os1_cloud_node1/points", "/os1_cloud_node2/points"])"));
   EXPECT_THAT(advice.command, Not(HasSubstr("stamp_at")));
-  EXPECT_THAT(advice.remarks, IsEmpty());
+  EXPECT_THAT(advice.remarks, ::testing::ElementsAre(HasSubstr("topics are those of NTU VIRAL")));
   clouds[0].convention.stamp_at = StampAt::kStart;
   const RunAdvice contradicted = AdviseRun(Recording(clouds));
   EXPECT_THAT(contradicted.command, HasSubstr("input.stamp_at=start"));
   EXPECT_THAT(contradicted.remarks, Contains(HasSubstr("check input.stamp_at")));
+  // A guess contradicts nothing.
+  for (CloudInspection& cloud : clouds) {
+    cloud.convention.stamp_at = StampAt::kStart;
+    cloud.convention.stamp_at_is_assumed = true;
+  }
+  const RunAdvice assumed = AdviseRun(Recording(clouds));
+  EXPECT_THAT(assumed.command, Not(HasSubstr("stamp_at")));
+  EXPECT_THAT(assumed.remarks, Not(Contains(HasSubstr("by the evidence"))));
+}
+
+TEST(AdviseRun, SaysThatTheExtrinsicsAreThoseOfTheDatasetsRig) {
+  RecordingInspection recording =
+      Recording({Cloud("/os1_cloud_node1/points", {}), Cloud("/os1_cloud_node2/points", {})});
+  EXPECT_THAT(AdviseRun(recording).remarks,
+              Contains(::testing::AllOf(HasSubstr("topics are those of NTU VIRAL"),
+                                        HasSubstr("sit as on that rig"),
+                                        HasSubstr("sensor.T_body_lidar"))));
+  recording.rig_config = "in/rig.yaml";
+  EXPECT_THAT(AdviseRun(recording).remarks, Not(Contains(HasSubstr("that rig"))));
 }
 
 TEST(AdviseRun, WithoutCloudsThereIsNoCommand) { EXPECT_EQ(AdviseRun(Recording({})).command, ""); }
