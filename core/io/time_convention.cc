@@ -74,6 +74,16 @@ TimeUnit DeduceUnit(const TimeEvidence& evidence, const Summary& summary) {
                    kMend);
 }
 
+/// What is wrong with a unit that was told, where the stamps show a sweep of quite another length.
+std::string DoubtOfUnit(const TimeEvidence& evidence, TimeUnit unit, double span_s) {
+  if (evidence.period_s <= 0.0) return "";
+  const double periods = span_s / evidence.period_s;
+  if (periods >= 0.05 && periods <= 5.0) return "";  // As in DeduceUnit().
+  return "input.time_unit=" + std::string(NameOf(unit)) + " makes a sweep take " + Number(span_s) +
+         " s, but stamps are " + Number(evidence.period_s) +
+         " s apart: check it, or leave it at auto";
+}
+
 /// True if zero lies within the sweep or close to one of its ends. Where a part of the sweep has no
 /// returns, the period tells how long it is.
 bool IsRelative(const TimeEvidence& evidence, TimeUnit unit, double seen) {
@@ -295,6 +305,10 @@ TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOpti
     if (found.origin == TimeOrigin::kSweepStart) {
       found.stamp_at = JudgeStamp(evidence, summary, &found);
     }
+  }
+  if (options.unit != TimeUnit::kAuto) {
+    const std::string doubt = DoubtOfUnit(evidence, found.unit, span_s);
+    if (!doubt.empty()) found.doubt = doubt;
   }
   found.evidence += "; " + OriginText(found);
   return found;

@@ -106,6 +106,27 @@ TEST(TimeConvention, AbsoluteTimesTellWhichEndTheStampMarks) {
   EXPECT_EQ(found.stamp_at, StampAt::kEnd);
 }
 
+TEST(TimeConvention, AUnitThatTheStampsContradictIsTakenAndDoubted) {
+  TimeOptions told;
+  told.unit = TimeUnit::kMicroseconds;
+  const auto found = DeduceTimeConvention(FiveScans(1, 0, 0.0999, 0, true), told);
+  EXPECT_EQ(found.unit, TimeUnit::kMicroseconds);
+  EXPECT_THAT(found.doubt, AllOf(HasSubstr("input.time_unit=us makes a sweep take 9.99e-08 s"),
+                                 HasSubstr("stamps are 0.1 s apart")));
+  EXPECT_EQ(DeduceTimeConvention(FiveScans(1e6, 0, 0.0999, 0, true), told).doubt, "");
+  EXPECT_EQ(DeduceTimeConvention(FiveScans(1, 0, 0.0999, 0, false), told).doubt, "");
+}
+
+TEST(TimeConvention, AnAssumptionIsNoEvidence) {
+  EXPECT_TRUE(DeduceTimeConvention(FiveScans(1, 0, 0.0999, 0, true), {}).stamp_at_is_assumed);
+  TimeEvidence recorded = FiveScans(1, 0, 0.0999, 0, true);
+  for (TimeSample& sample : recorded.samples) sample.recorded_ns = *sample.stamp_ns + 5'000'000;
+  EXPECT_FALSE(DeduceTimeConvention(recorded, {}).stamp_at_is_assumed);
+  TimeOptions told;
+  told.stamp_at = StampAt::kStart;
+  EXPECT_FALSE(DeduceTimeConvention(FiveScans(1, 0, 0.0999, 0, true), told).stamp_at_is_assumed);
+}
+
 TEST(TimeConvention, GapsInTheStampsDoNotHideTheUnit) {
   TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
   evidence.period_s = 0.4;
