@@ -2,7 +2,9 @@
 #include "apps/require_extrinsics.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
+#include <filesystem>
 
 #include "apps/usage_error.h"
 #include "core/io/recording/open_clouds.h"
@@ -24,6 +26,21 @@ std::string Count(std::size_t lidars) {
                    "in sensor.T_body_lidar those that are read, in this order.");
 }
 
+/// True for bags that are named alike but for numbers, as a recorder names the parts.
+bool ArePartsOfOne(const std::vector<std::string>& inputs) {
+  const auto without_digits = [](const std::string& path) {
+    std::string text = std::filesystem::path(path).filename().string();
+    text.erase(std::remove_if(text.begin(), text.end(),
+                              [](unsigned char c) { return std::isdigit(c) != 0; }),
+               text.end());
+    return text;
+  };
+  return inputs.size() > 1 && std::all_of(inputs.begin(), inputs.end(), [&](const auto& input) {
+           return std::filesystem::is_regular_file(input) &&
+                  without_digits(input) == without_digits(inputs.front());
+         });
+}
+
 template <typename T>
 void RequireOneForEach(const char* key, const PerLidar<T>& option, std::size_t lidars) {
   const std::size_t given = option.values.size();
@@ -43,7 +60,16 @@ void RequireOptionsOfEachLidar(const std::vector<std::string>& inputs,
   RequireOneForEach("input.time_origin", options.time_origin, lidars);
   RequireOneForEach("input.stamp_at", options.stamp_at, lidars);
   RequireOneForEach("input.clock_offset_s", options.clock_offset_s, lidars);
-  if (!options.stamps_file.empty() && std::any_of(inputs.begin(), inputs.end(), HoldsClouds)) {
+  const bool has_messages = std::any_of(inputs.begin(), inputs.end(), HoldsClouds);
+  if (options.scan_period_s != RecordingOptions().scan_period_s && has_messages) {
+    throw UsageError(
+        "input.scan_period_s is for folders of scans without stamps; a recording with messages has "
+        "the stamps of these");
+  }
+  if (options.velodyne_model && std::none_of(inputs.begin(), inputs.end(), HoldsPackets)) {
+    throw UsageError("input.velodyne_model is for captures of packets (.pcap), and none is read");
+  }
+  if (!options.stamps_file.empty() && has_messages) {
     throw UsageError(
         "input.stamps_file is for folders of scans; a recording with messages has the "
         "stamps of these");
@@ -60,6 +86,12 @@ void RequireExtrinsics(const std::vector<std::string>& inputs, const RunConfig& 
   const std::size_t given = config.odometry.segmenter.T_body_lidar.size();
   if (given > lidars.size()) FailTooMany(lidars, given);
   if (lidars.size() < 2 || given == lidars.size()) return;
+  if (given == 0 && ArePartsOfOne(inputs)) {
+    throw UsageError(std::to_string(inputs.size()) +
+                     " bags are read as one LiDAR each. If they are parts of one recording, give "
+                     "the folder that holds them and nothing else; LiDARs of their own need "
+                     "sensor.T_body_lidar, the pose of each in the body frame");
+  }
   std::string text = std::to_string(lidars.size()) + " LiDARs are read, and sensor.T_body_lidar " +
                      (given == 0 ? "is empty" : "has " + std::to_string(given)) +
                      ": it needs the pose of each in the body frame, in this order. In a file for "

@@ -30,6 +30,12 @@ ScanFolder::ScanFolder(const std::filesystem::path& path, const ScanFolderOption
   report_.warnings = stamps_.warnings;
   Probe();
   if (stamps_.t_ns.empty() && !convention_.IsAbsolute()) SetRegularStamps();
+  if (!has_assumed_stamps_ && options_.scan_period_s != ScanFolderOptions().scan_period_s) {
+    throw InputError(listing_.folder,
+                     "input.scan_period_s is given, but the scans have stamps: " +
+                         (stamps_.t_ns.empty() ? "the times of their points" : stamps_.source),
+                     "Leave input.scan_period_s out.");
+  }
   Describe(path);
   if (options_.read_ahead) StartNext({});
 }

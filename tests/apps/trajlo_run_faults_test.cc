@@ -131,6 +131,34 @@ TEST_F(TrajloRunTest, SeveralTopicsWithoutTheirPosesAreRefused) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("sensor.T_body_lidar"), HasSubstr("# /b of ")));
 }
 
+TEST_F(TrajloRunTest, OptionsThatARecordingHasNoUseForAreRefused) {
+  RoomRecording room;
+  room.scans = 4;
+  room.Write(temp_ / "in");
+  const Outcome model = Run({"--set=input.velodyne_model=VLP-16"});
+  EXPECT_EQ(model.exit_code, 1);
+  EXPECT_THAT(model.err, HasSubstr("input.velodyne_model is for captures of packets"));
+  WriteFile(temp_ / "in.bag", "#ROSBAG V2.0");
+  const Outcome period = Call(
+      {"--input=" + input() + ".bag", "--output=" + output(), "--set=input.scan_period_s=0.2"});
+  EXPECT_EQ(period.exit_code, 1);
+  EXPECT_THAT(period.err, HasSubstr("input.scan_period_s is for folders"));
+  const Outcome stamped = Run({"--set=input.scan_period_s=0.2"});
+  EXPECT_EQ(stamped.exit_code, 2);
+  EXPECT_THAT(stamped.err, HasSubstr("the scans have stamps"));
+  EXPECT_FALSE(fs::exists(output()));
+}
+
+TEST_F(TrajloRunTest, PartsOfOneRecordingAreSentToTheirFolder) {
+  WriteFile(temp_ / "walk_0.bag", "");
+  WriteFile(temp_ / "walk_1.bag", "");
+  const Outcome outcome = Call(
+      {(temp_ / "walk_0.bag").string(), (temp_ / "walk_1.bag").string(), "--output=" + output()});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("parts of one recording, give the folder"),
+                                 HasSubstr("sensor.T_body_lidar")));
+}
+
 TEST_F(TrajloRunTest, UnknownConfigKeyIsOneAndNamesTheLine) {
   WriteFile(temp_ / "my.yaml", "window:\n  segmets: 3\n");
   const Outcome outcome = Run({"--config=" + (temp_ / "my.yaml").string()});

@@ -51,6 +51,10 @@ bool IsCapture(const std::string& bytes) {
                      [&](std::string_view magic) { return BeginsWith(bytes, magic); });
 }
 
+bool BeginsAsPackets(const std::string& bytes) {
+  return IsCapture(bytes) || BeginsAsVelodynePayloads(bytes);
+}
+
 bool BeginsAsRos2(const std::string& bytes) {
   return BeginsWith(bytes, "\x89MCAP") || BeginsWith(bytes, "SQLite format 3");
 }
@@ -81,7 +85,7 @@ std::unique_ptr<CloudMessageReader> OpenRos2(const fs::path& path) {
 std::unique_ptr<CloudMessageReader> OpenFile(const fs::path& path, const CloudOptions& options) {
   const std::string bytes = FirstBytes(path);
   if (BeginsWith(bytes, "#ROSBAG V")) return OpenRos1(path, options);
-  if (IsCapture(bytes) || BeginsAsVelodynePayloads(bytes)) {
+  if (BeginsAsPackets(bytes)) {
     return std::make_unique<PacketCloudReader>(path, options.packets);
   }
   if (BeginsAsRos2(bytes) || IsRos2Bag(path)) return OpenRos2(path);
@@ -94,6 +98,11 @@ bool HoldsClouds(const fs::path& path) {
   std::error_code error;
   if (fs::is_regular_file(path, error)) return true;
   return fs::is_directory(path, error) && (IsRos2Bag(path) || !Ros1Bags(path).empty());
+}
+
+bool HoldsPackets(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && BeginsAsPackets(FirstBytes(path));
 }
 
 std::unique_ptr<CloudMessageReader> OpenClouds(const fs::path& path, const CloudOptions& options) {

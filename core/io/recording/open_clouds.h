@@ -21,6 +21,9 @@ struct CloudOptions {
 /// ROS 1 bags; other folders are those of scans.
 bool HoldsClouds(const std::filesystem::path& path);
 
+/// True for a capture of packets. Throws InputError where the file cannot be opened.
+bool HoldsPackets(const std::filesystem::path& path);
+
 /// Opens a bag (ROS 1 .bag, ROS 2 .db3 or .mcap), a capture of packets (.pcap, .pcapng, or bare
 /// payloads of a Velodyne), or a folder of bags, which are read one after the other in the natural
 /// order of their names. The kind is told by the first bytes, not by the name. Throws InputError.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/io/recording/open_recording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <utility>
 
+#include "core/io/errors.h"
 #include "core/io/recording/cloud_recording.h"
 #include "core/io/recording/excerpt.h"
 #include "core/io/recording/merged_recording.h"
@@ -29,6 +31,10 @@ std::unique_ptr<ScanSource> OpenFolder(const std::string& input, const Recording
   return std::make_unique<ScanFolder>(input, own);
 }
 
+std::string FolderName(const fs::path& path) {
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 }  // namespace
 
 std::vector<std::string> InputPaths(const std::string& input) {
@@ -49,10 +55,30 @@ std::vector<std::string> InputPaths(const std::string& input) {
   return paths;
 }
 
+std::vector<std::string> ChosenInputs(const std::vector<std::string>& inputs,
+                                      const RecordingOptions& options) {
+  const bool has_topics = std::any_of(inputs.begin(), inputs.end(), HoldsClouds);
+  if (options.topics.empty() || inputs.empty() || has_topics) return inputs;
+  std::vector<std::string> chosen;
+  for (const std::string& topic : options.topics) {
+    const auto folder = std::find_if(inputs.begin(), inputs.end(), [&](const std::string& input) {
+      return topic == input || topic == FolderName(input);
+    });
+    if (folder != inputs.end()) chosen.push_back(*folder);
+  }
+  if (chosen.size() == options.topics.size()) return chosen;
+  if (chosen.empty() && inputs.size() == options.topics.size()) return inputs;
+  std::string folders;
+  for (const std::string& input : inputs) folders += "\n    " + FolderName(input);
+  throw InputError(fs::path(inputs.front()).parent_path(),
+                   "folders of scans have no topics; input.topics can name these:" + folders,
+                   "Leave input.topics empty to read all.");
+}
+
 std::vector<std::string> LidarNames(const std::vector<std::string>& inputs,
                                     const RecordingOptions& options) {
   std::vector<std::string> names;
-  for (const std::string& input : inputs) {
+  for (const std::string& input : ChosenInputs(inputs, options)) {
     if (options.topics.empty() || !HoldsClouds(input)) {
       names.push_back(input);
       continue;
@@ -70,7 +96,7 @@ std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs
   const bool read_ahead = threads != 1;
   std::vector<std::unique_ptr<ScanSource>> sources;
   std::size_t lidar_id = 0;
-  for (const std::string& input : inputs) {
+  for (const std::string& input : ChosenInputs(inputs, options)) {
     if (!HoldsClouds(input)) {
       sources.push_back(OpenFolder(input, options, lidar_id++, read_ahead));
       continue;

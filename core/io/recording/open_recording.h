@@ -14,6 +14,12 @@ namespace trajlo {
 /// lidar1, ... of the one folder that it names.
 std::vector<std::string> InputPaths(const std::string& input);
 
+/// The inputs that `options.topics` means where none of them has topics: the folders whose own
+/// names these are, in that order. As many topics as folders that name none of them are those of a
+/// bag whose LiDARs the folders hold. Throws InputError if neither is so.
+std::vector<std::string> ChosenInputs(const std::vector<std::string>& inputs,
+                                      const RecordingOptions& options);
+
 /// What each LiDAR of the inputs is called, in the order of their ids: its topic with the file, or
 /// its folder. Opens nothing, and so does not know the topic where `options` name none.
 std::vector<std::string> LidarNames(const std::vector<std::string>& inputs,

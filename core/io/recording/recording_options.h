@@ -51,7 +51,8 @@ struct RecordingOptions {
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kUsers, "topics", topics,
-      "Topics of a bag to read, one per LiDAR; empty takes the only one with point clouds.");
+      "Topics of a bag to read, one per LiDAR; empty takes the only one with point clouds. Of "
+      "several folders of scans, their names.");
     d(OptionFor::kUsers, "point_time", use_point_times,
       Names<bool>{{"auto", true}, {"none", false}},
       "none ignores the times of points, for motion-corrected scans; every point then gets its "

@@ -89,6 +89,38 @@ TEST(OpenRecording, WithOneThreadAScanIsReadWhenItIsAskedFor) {
   EXPECT_EQ(recording->report().scans_skipped, 3u);
 }
 
+TEST(ChosenInputs, TopicsAreNamesOfFoldersWhereThereIsNoBag) {
+  const TempFolder temp;
+  SmallRoom(2).Write(temp / "in/lidar0");
+  SmallRoom(2).Write(temp / "in/lidar1");
+  const std::string a = temp / "in/lidar0", b = temp / "in/lidar1";
+  RecordingOptions options;
+  EXPECT_THAT(ChosenInputs({a, b}, options), ElementsAre(a, b));
+  options.topics = {"lidar1"};
+  EXPECT_THAT(ChosenInputs({a, b + "/"}, options), ElementsAre(b + "/"));
+  EXPECT_THAT(LidarNames({a, b}, options), ElementsAre(b));
+  EXPECT_EQ(OpenRecording({a, b}, options)->size(), 2u);
+  options.topics = {b, a};
+  EXPECT_THAT(ChosenInputs({a, b}, options), ElementsAre(b, a));
+  options.topics = {"/os1_cloud_node1/points", "/os1_cloud_node2/points"};  // Of a converted bag.
+  EXPECT_THAT(ChosenInputs({a, b}, options), ElementsAre(a, b));
+  options.topics = {"/os1_cloud_node1/points"};
+  EXPECT_THROW(OpenRecording({a, b}, options), InputError);
+  options.topics = {"lidar1", "lidar2"};
+  EXPECT_THROW(ChosenInputs({a, b}, options), InputError);
+}
+
+TEST(OpenRecording, APeriodContradictsStamps) {
+  const TempFolder temp;
+  SmallRoom(3).Write(temp / "a");
+  RecordingOptions options;
+  options.scan_period_s = 0.2;
+  EXPECT_THROW(OpenRecording({temp / "a"}, options), InputError);
+  options.use_point_times.values = {false};
+  std::filesystem::remove(temp / "a/timestamps.txt");
+  EXPECT_EQ(OpenRecording({temp / "a"}, options)->size(), 3u);
+}
+
 TEST(LidarNames, AreTopicsOrFoldersInTheOrderOfTheIds) {
   const TempFolder temp;
   SmallRoom(1).Write(temp / "folder");
