@@ -71,14 +71,18 @@ void Execute(const RunRequest& request, const ResultFolder& folder, ScanSource* 
   Run run(request, folder, recording, summary);
   std::string failure;
   try {
-    run.Estimate(stop);
+    try {
+      run.Estimate(stop);
+    } catch (const OutputError&) {
+      throw;
+    } catch (const std::exception& error) {
+      failure = FailureText(error);
+    }
+    run.Write();
   } catch (const OutputError&) {
     run.Summarise();
     throw;
-  } catch (const std::exception& error) {
-    failure = FailureText(error);
   }
-  run.Write();
   run.Summarise();
   JudgeOutcome(stop, summary);
   if (!failure.empty()) {
@@ -110,7 +114,9 @@ std::string Understood(const ScanSource& recording, const RunRequest& request) {
 
 void Print(const RunRequest& request, const RunSummary& summary) {
   PrintWarnings("trajlo_run", summary.warnings, " are in run.json");
-  if (!request.quiet) std::fputs(SummaryTable(summary).c_str(), stdout);
+  // If the output failed before anything was read, there is nothing to count.
+  const bool has_read = summary.read.scans_listed > 0;
+  if (!request.quiet && has_read) std::fputs(SummaryTable(summary).c_str(), stdout);
   if (!summary.message.empty()) {
     std::fprintf(stderr, "trajlo_run: %s\n", summary.message.c_str());
   }

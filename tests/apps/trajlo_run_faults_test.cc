@@ -271,6 +271,10 @@ TEST_F(TrajloRunTest, AFullDiskIsFiveWhicheverFileMeetsIt) {
     const Outcome outcome = Run({"--overwrite"});
     EXPECT_EQ(outcome.exit_code, 5) << name;
     EXPECT_THAT(outcome.err, AllOf(HasSubstr(name), HasSubstr("No space left"))) << name;
+    EXPECT_THAT(outcome.out, Not(HasSubstr("0 of 0 scans"))) << name;
+    if (std::string(name) == "map.ply") {
+      EXPECT_THAT(outcome.out, HasSubstr("12 of 12 scans"));
+    }
   }
 }
 
