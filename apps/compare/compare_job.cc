@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/compare/compare_job.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 
@@ -12,6 +14,7 @@
 #include "core/evaluation/evaluation_error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
+#include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
 #include "core/report/draw_script.h"
 
@@ -61,6 +64,34 @@ std::optional<double> ErrorOf(const FreeResult& result, const std::optional<Time
   return std::nullopt;
 }
 
+/// A truth of another time is of no use, and better known before the runs than after.
+void RequireOverlap(const CompareRequest& request) {
+  const TimedPoses truth = ReadTruth(request.truth);
+  if (!truth.HasStamps()) {
+    throw InputError(request.truth, "has no stamps, and the poses of the runs are found by them",
+                     "Give a truth in TUM's or EuRoC's format.");
+  }
+  const auto recording = OpenRecording(request.inputs, request.config.input);
+  LidarScan scan;
+  if (!recording->Next(&scan)) return;  // The runs say more.
+  const std::int64_t begin_ns = scan.stamp_ns;
+  const int lidar_id = scan.lidar_id;
+  std::int64_t next_ns = begin_ns;
+  while (next_ns <= begin_ns && recording->Next(&scan)) {
+    if (scan.lidar_id == lidar_id) next_ns = scan.stamp_ns;
+  }
+  // Where the end lies is not known before all is read, and there may be pauses.
+  const std::int64_t end_ns =
+      begin_ns + 10 * static_cast<std::int64_t>(recording->size()) * (next_ns - begin_ns);
+  if (truth.t_ns.back() >= begin_ns && truth.t_ns.front() <= end_ns) return;
+  throw InputError(request.truth,
+                   "is of another time than the recording: from " +
+                       FormatSeconds(truth.t_ns.front()) + " to " +
+                       FormatSeconds(truth.t_ns.back()) + " s, and the recording begins at " +
+                       FormatSeconds(begin_ns) + " s",
+                   "Without --truth the solvers are compared all the same.");
+}
+
 /// Writes after each part, so that what was computed is there whatever comes.
 void Compare(const CompareRequest& request, const std::atomic<bool>& stop, CompareReport* report) {
   std::optional<TimedPoses> truth;
@@ -89,7 +120,7 @@ void Compare(const CompareRequest& request, const std::atomic<bool>& stop, Compa
 }
 
 /// What is to be said of the recording, and of the runs; what is worse wins.
-ExitCode Judge(const CompareReport& report, bool was_interrupted) {
+ExitCode Judge(const CompareReport& report, bool has_truth, bool was_interrupted) {
   const Feed& read = report.free.empty() ? report.lockstep_feed : report.free.front().feed;
   PrintWarnings("trajlo_compare_solvers", read.warnings);
   ExitCode code = ExitCode::kOk;
@@ -106,6 +137,11 @@ ExitCode Judge(const CompareReport& report, bool was_interrupted) {
     say(ExitCode::kLost,
         "'" + result.name + "' got lost at " + FormatSeconds(*result.feed.lost_at_ns) + " s");
   }
+  const bool no_errors = std::none_of(report.free.begin(), report.free.end(),
+                                      [](const FreeResult& run) { return run.ate_rmse_m; });
+  if (has_truth && !report.free.empty() && no_errors && code == ExitCode::kOk) {
+    say(ExitCode::kPartialInput, "no run could be compared with the truth");
+  }
   if (was_interrupted) {
     say(ExitCode::kInterrupted, "a signal ended the comparison early; the last run is not whole");
   }
@@ -115,6 +151,7 @@ ExitCode Judge(const CompareReport& report, bool was_interrupted) {
 }  // namespace
 
 ExitCode RunComparison(const CompareRequest& request, const std::atomic<bool>& stop) {
+  if (!request.truth.empty()) RequireOverlap(request);
   PrepareFolder(request);
   CompareReport report;
   Compare(request, stop, &report);
@@ -124,7 +161,7 @@ ExitCode RunComparison(const CompareRequest& request, const std::atomic<bool>& s
     std::fprintf(stderr, "trajlo_compare_solvers: no figures: %s\n", problem.c_str());
   }
   if (!request.quiet) std::fputs(CompareTables(report).c_str(), stdout);
-  return Judge(report, stop);
+  return Judge(report, !request.truth.empty(), stop);
 }
 
 }  // namespace trajlo

@@ -105,6 +105,24 @@ TEST_F(TrajloCompareSolversTest, DamageOfTheInputIsToldAndHasItsExitCode) {
   EXPECT_FALSE(Result("comparison.json").empty());
 }
 
+TEST_F(TrajloCompareSolversTest, ATruthOfAnotherTimeIsRefusedBeforeTheFirstRun) {
+  const std::string truth = temp_ / "truth.tum";
+  for (const char* stamps : {"10", "999999"}) {
+    WriteFile(truth, std::string(stamps) + " 0 0 0 0 0 0 1\n" + stamps + ".5 0 0 0 0 0 0 1\n");
+    const Outcome outcome = Call({"--only=gauss_newton", "--truth=" + truth});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("is of another time than the recording"));
+    EXPECT_THAT(outcome.err, HasSubstr("begins at 1000.0"));
+    EXPECT_FALSE(std::filesystem::exists(temp_ / "out"));
+  }
+  // It overlaps, but a single place aligns nothing.
+  WriteFile(truth, "1000 0 0 0 0 0 0 1\n1001 0 0 0 0 0 0 1\n");
+  const Outcome outcome =
+      Call({"--only=gauss_newton", "--mode=free", "--truth=" + truth, "--overwrite"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no run could be compared with the truth"));
+}
+
 TEST_F(TrajloCompareSolversTest, ErrorsHaveTheDocumentedCodes) {
   const Outcome unknown = Call({"--only=nobody"});
   EXPECT_EQ(unknown.exit_code, 1);
