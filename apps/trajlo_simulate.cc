@@ -3,6 +3,7 @@
 #include <gflags/gflags.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -16,11 +17,13 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/interrupt.h"
 #include "apps/usage_error.h"
 #include "core/config/edit_distance.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/simulation/recording_writer.h"
+#include "core/simulation/scan_stream.h"
 #include "core/simulation/scenario.h"
 #include "core/simulation/scenario_parameters.h"
 #include "core/simulation/simulator.h"
@@ -82,7 +85,8 @@ Flags:
   --list, --list_parameters
   -h, --help, --version
 
-Exit codes: 0 done, 1 wrong usage, 5 output not writable, 6 out of memory or a defect of the program.
+Exit codes: 0 done, 1 wrong usage, 5 output not writable, 6 out of memory or a defect of the program,
+130 interrupted; what was simulated until then is a shorter recording.
 )";
 
 /// `key=value,key=value`. A piece without '=' belongs to the value before it, which lets a value
@@ -215,21 +219,36 @@ void PrepareOutput(const fs::path& output) {
   }
 }
 
-void Write(const trajlo::simulation::Simulator& simulator,
-           const std::optional<trajlo::simulation::BagFormat>& bag) {
+/// False if a signal ended it early: what is written goes until then.
+bool Write(const trajlo::simulation::Simulator& simulator,
+           const std::optional<trajlo::simulation::BagFormat>& bag, const std::atomic<bool>& stop) {
   const auto begin = std::chrono::steady_clock::now();
   trajlo::simulation::RecordingWriter writer(simulator, FLAGS_output, bag);
-  trajlo::simulation::SimulateScans(simulator, FLAGS_threads,
-                                    [&](const auto& scan) { writer.Write(scan); });
-  writer.Finish();
+  trajlo::simulation::ScanStream stream(simulator, FLAGS_threads);
+  trajlo::simulation::SimulatedScan scan;
+  bool is_whole = false;
+  while (!stop) {
+    is_whole = !stream.Next(&scan);
+    if (is_whole) break;
+    writer.Write(scan);
+  }
+  writer.Finish(is_whole);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::printf(
       "%s: %.1f s, %lld scans, %.2f million points in %s\n%.1f s to simulate, %.2f million "
       "points a second\n",
-      simulator.scenario().name.c_str(), simulator.scenario().duration_s,
+      simulator.scenario().name.c_str(),
+      is_whole ? simulator.scenario().duration_s : writer.seconds(),
       static_cast<long long>(writer.scans()), 1e-6 * static_cast<double>(writer.points()),
       FLAGS_output.c_str(), seconds, 1e-6 * static_cast<double>(writer.points()) / seconds);
+  if (!is_whole) {
+    std::fprintf(stderr,
+                 "trajlo_simulate: a signal ended it early; what was simulated until then, %lld "
+                 "scans, is a recording of its own\n",
+                 static_cast<long long>(writer.scans()));
+  }
+  return is_whole;
 }
 
 ExitCode Simulate(const trajlo::CommandLine& line) try {
@@ -248,7 +267,7 @@ ExitCode Simulate(const trajlo::CommandLine& line) try {
   const trajlo::simulation::Simulator simulator(scenario);
   try {
     PrepareOutput(FLAGS_output);
-    Write(simulator, bag);
+    if (!Write(simulator, bag, trajlo::HandleInterrupts())) return ExitCode::kInterrupted;
   } catch (const std::runtime_error& error) {
     std::fprintf(stderr, "trajlo_simulate: %s\n", error.what());
     return ExitCode::kOutputNotWritable;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/simulation/recording_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -84,7 +85,9 @@ std::string TopicsYaml(const std::vector<std::string>& topics) {
 
 RecordingWriter::RecordingWriter(const Simulator& simulator, fs::path directory,
                                  const std::optional<BagFormat>& bag)
-    : simulator_(simulator), directory_(std::move(directory)) {
+    : simulator_(simulator),
+      directory_(std::move(directory)),
+      written_until_ns_(simulator.start_ns()) {
   const Scenario& scenario = simulator.scenario();
   if (bag && scenario.motion_corrected) {
     throw std::invalid_argument("motion-corrected scans are written as KITTI has them, in no bag");
@@ -106,6 +109,7 @@ void RecordingWriter::Write(const SimulatedScan& simulated) {
   const LidarScan& scan = simulated.scan;
   ++scans_;
   points_ += static_cast<std::int64_t>(scan.points.size());
+  written_until_ns_ = std::max(written_until_ns_, simulated.true_start_ns + simulated.period_ns);
   if (bag_) {
     bag_->Write(simulated);
     return;
@@ -121,11 +125,13 @@ void RecordingWriter::Write(const SimulatedScan& simulated) {
   stream.recorded_ns.push_back(simulated.RecordedNs());
 }
 
-void RecordingWriter::Finish() {
+void RecordingWriter::Finish(bool is_whole) {
+  const std::int64_t end_ns =
+      is_whole ? simulator_.end_ns() : std::min(written_until_ns_, simulator_.end_ns());
   WriteStamps();
-  if (bag_) bag_->Finish();
+  if (bag_) bag_->Finish(end_ns);
   std::string truth;
-  for (std::int64_t t = simulator_.start_ns(); t <= simulator_.end_ns(); t += kTruthStepNs) {
+  for (std::int64_t t = simulator_.start_ns(); t <= end_ns; t += kTruthStepNs) {
     truth += TumLine(t, simulator_.TrueWorldFromBody(t));
   }
   WriteFile(directory_ / "truth.tum", truth);

@@ -41,11 +41,16 @@ class RecordingWriter {
                   const std::optional<BagFormat>& bag = {});
 
   void Write(const SimulatedScan& simulated);
-  /// Writes what goes beside the scans.
-  void Finish();
+  /// Writes what goes beside the scans; the truth until the end of the last one if they are not all
+  /// (`is_whole`) of the recording.
+  void Finish(bool is_whole = true);
 
   std::int64_t scans() const { return scans_; }
   std::int64_t points() const { return points_; }
+  /// From the start to the end of the last sweep.
+  double seconds() const {
+    return 1e-9 * static_cast<double>(written_until_ns_ - simulator_.start_ns());
+  }
 
  private:
   struct Stream {
@@ -63,6 +68,7 @@ class RecordingWriter {
   std::optional<SimulatedBag> bag_;
   std::int64_t scans_ = 0;
   std::int64_t points_ = 0;
+  std::int64_t written_until_ns_;  ///< The true end of the last sweep.
 };
 
 }  // namespace trajlo::simulation

@@ -52,8 +52,8 @@ void SimulatedBag::WriteTruth(std::int64_t until_ns) {
   }
 }
 
-void SimulatedBag::Finish() {
-  WriteTruth(simulator_.end_ns());
+void SimulatedBag::Finish(std::int64_t end_ns) {
+  WriteTruth(end_ns);
   bag_.Close();
 }
 

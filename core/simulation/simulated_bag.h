@@ -33,7 +33,8 @@ class SimulatedBag {
                const BagFormat& format);
 
   void Write(const SimulatedScan& simulated);
-  void Finish();
+  /// The truth goes on until then.
+  void Finish(std::int64_t end_ns);
   /// In the order of the rig.
   const std::vector<std::string>& topics() const { return topics_; }
 

@@ -2,13 +2,17 @@
 // The command as a user meets it: exit codes, messages and what is on the disk afterwards.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
+#include "tests/support/process.h"
 #include "tests/support/temp_folder.h"
 
 namespace {
@@ -56,6 +60,23 @@ TEST_F(SimulateCommand, WrongUsageExitsWithOneAndSaysWhy) {
   EXPECT_EQ(key.exit_code, 1);
   EXPECT_NE(key.output.find("motion.speed_mps"), std::string::npos);
   EXPECT_FALSE(fs::exists(Out("a")));
+}
+
+TEST_F(SimulateCommand, ASignalLeavesAShorterRecordingAnd130) {
+  const trajlo::testing::Process process(
+      {TRAJLO_SIMULATE, "hall_os1_16", "-o", Out("a"), "--duration_s=1000"});
+  while (!fs::exists(folder_ / "a/scans/000002.pcd") && !process.HasEnded()) usleep(1000);
+  process.Signal(SIGINT);
+  EXPECT_EQ(process.Wait(), 130);
+  EXPECT_NE(process.Err().find("a signal ended it early"), std::string::npos);
+  const auto lines = [&](const char* name) {
+    const std::string text = Contents(folder_ / "a" / name);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const auto scans = std::distance(fs::directory_iterator(folder_ / "a/scans"), {});
+  EXPECT_EQ(lines("timestamps.txt"), scans);
+  EXPECT_NEAR(static_cast<double>(lines("truth.tum")), 100.0 * static_cast<double>(scans), 2.0);
+  EXPECT_TRUE(fs::exists(folder_ / "a/rig.yaml"));
 }
 
 TEST_F(SimulateCommand, WrongNumbersExitWithOneAndSayWhatIsAllowed) {
