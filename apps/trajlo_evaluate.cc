@@ -2,6 +2,7 @@
 // How far estimated trajectories are from the truth. See --help.
 #include <gflags/gflags.h>
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -52,6 +53,8 @@ using trajlo::UsageError;
 
 constexpr char kHelp[] = R"(How far estimated trajectories are from the truth.
 
+  trajlo_evaluate result truth.tum
+      the trajectory in a folder that trajlo_run wrote; a file by its name
   trajlo_evaluate estimate.tum truth.tum
       absolute error (ATE), relative errors (RPE) and KITTI's errors
   trajlo_evaluate a/trajectory.tum b/trajectory.tum --truth=truth.tum --names=ours,theirs
@@ -190,7 +193,10 @@ EvaluateRequest RequestFromFlags(std::vector<std::string> arguments) {
     request.truth = FLAGS_truth;
   }
   if (arguments.empty()) throw UsageError("there is no estimate");
-  request.estimates.assign(arguments.begin(), arguments.end());
+  for (const std::filesystem::path argument : arguments) {
+    const bool ends_in_slash = !argument.has_filename() && argument.has_relative_path();
+    request.estimates.push_back(ends_in_slash ? argument.parent_path() : argument);
+  }
   request.names =
       FLAGS_names.empty() ? trajlo::Labels(request.estimates) : trajlo::SplitAtCommas(FLAGS_names);
   if (request.names.size() != request.estimates.size() ||

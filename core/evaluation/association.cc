@@ -56,7 +56,8 @@ std::vector<PosePair> PairLines(const TimedPoses& estimate, const TimedPoses& tr
     throw EvaluationError("the estimate has " + std::to_string(estimate.size()) +
                           " poses and the ground truth " + std::to_string(truth.size()) +
                           "; without stamps they are paired line by line and must have the same "
-                          "number");
+                          "number. trajlo_run --at=scan-end writes a pose for each scan, and "
+                          "trajlo_convert RESULT FOLDER a poses.txt with a line for each");
   }
   std::vector<PosePair> pairs;
   for (std::size_t i = 0; i < estimate.size(); ++i) {

@@ -116,7 +116,8 @@ TimeOffset EstimateTimeOffset(const TimedPoses& estimate, const TimedPoses& trut
   if (best < 0) {
     throw EvaluationError(
         "no time offset was found: estimate and ground truth cannot be compared "
-        "anywhere in the range that was searched");
+        "anywhere in the range that was searched; --time_offset_reach_s widens it, and "
+        "--time_offset_s is its middle");
   }
   TimeOffset result;
   const double centre_s = options.around_s + (best - half) * step_s;
@@ -131,7 +132,9 @@ TimeOffset EstimateTimeOffset(const TimedPoses& estimate, const TimedPoses& trut
   if (worst_rmse < kFlat * grid[static_cast<std::size_t>(best)].rmse_m) {
     result.warning = "the error hardly depends on the time offset; the estimated one means little";
   } else if (best == 0 || best == 2 * half) {
-    result.warning = "the best time offset lies at the end of the range that was searched";
+    result.warning =
+        "the best time offset lies at the end of the range that was searched; "
+        "--time_offset_reach_s widens it";
   }
   return result;
 }

@@ -2,6 +2,7 @@
 #include "core/io/trajectory_file.h"
 
 #include <algorithm>
+#include <system_error>
 
 #include "core/io/errors.h"
 #include "core/io/euroc_csv.h"
@@ -36,10 +37,11 @@ TrajectoryFormat Detect(const std::filesystem::path& path, std::string_view text
   }
   std::size_t columns = 0;
   while (!TakeWord(&line).empty()) ++columns;
-  if (columns == 8) return TrajectoryFormat::kTum;
+  if (columns == 8 || columns == 4) return TrajectoryFormat::kTum;
   if (columns == 12) return TrajectoryFormat::kKitti;
   throw InputError(path, where + " has " + std::to_string(columns) + " columns",
-                   "Trajectories have 8 (TUM: stamp x y z qx qy qz qw) or 12 (KITTI: the pose's "
+                   "Trajectories have 8 (TUM: stamp x y z qx qy qz qw), 4 (stamp x y z) or 12 "
+                   "(KITTI: the pose's "
                    "first three rows), or are EuRoC's csv.");
 }
 
@@ -89,6 +91,10 @@ std::optional<TrajectoryFormat> ParseTrajectoryFormat(std::string_view name) {
 
 TrajectoryFile ReadTrajectory(const std::filesystem::path& path, TrajectoryFormat format,
                               std::vector<std::string>* warnings) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path / "trajectory.tum", error)) {
+    return ReadTrajectory(path / "trajectory.tum", format, warnings);
+  }
   const FileBytes bytes = ReadFileBytes(path);
   const std::size_t earlier_warnings = warnings->size();
   TrajectoryFile file;

@@ -14,7 +14,9 @@
 namespace trajlo {
 
 /// How the poses of a file are written.
-///   kTum    "stamp x y z qx qy qz qw", seconds, blanks or tabs between the columns
+///   kTum    "stamp x y z qx qy qz qw", seconds, blanks or tabs between the columns; or "stamp x y
+///   z"
+///           in all lines, which have no rotation
 ///   kKitti  the upper 3x4 of the pose, row by row, no stamps
 ///   kEuroc  csv of "stamp, x, y, z, qw, qx, qy, qz", whole nanoseconds, more columns are ignored
 enum class TrajectoryFormat { kAuto, kTum, kKitti, kEuroc };
@@ -39,6 +41,7 @@ struct TrajectoryFile {
 /// with # are accepted everywhere. Lines of stamped formats with a number that is not finite or a
 /// zero quaternion are skipped and mentioned in `warnings`. Rotations of KITTI files that are off
 /// by more than 1e-4 are projected onto SO(3), with a warning.
+/// A folder that holds trajectory.tum, a result of trajlo_run, stands for that.
 /// Throws InputError, naming the line, for everything that cannot be understood, and for a file
 /// without poses.
 TrajectoryFile ReadTrajectory(const std::filesystem::path& path, TrajectoryFormat format,

@@ -2,6 +2,7 @@
 #include "core/io/trajectory_reader.h"
 
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "core/io/errors.h"
@@ -16,13 +17,30 @@ namespace {
 
 enum class LineKind { kPose, kWithoutRotation, kUnusable, kMalformed };
 
-LineKind ParseLine(std::string_view line, StampedPose* pose) {
+// Of a quaternion whose last number is cut.
+constexpr double kCutNorm = 1e-3;
+
+std::size_t CountWords(std::string_view line) {
+  std::size_t words = 0;
+  while (!TakeWord(&line).empty()) ++words;
+  return words;
+}
+
+/// True if the line has a stamp, and too few numbers.
+bool IsBeginOfLine(std::string_view line, std::size_t columns) {
+  if (CountWords(line) >= columns) return false;
+  double stamp = 0.0;
+  return ParseNumber(TakeWord(&line), &stamp);
+}
+
+/// `columns` is 8, or 4 without rotations.
+LineKind ParseLine(std::string_view line, std::size_t columns, StampedPose* pose) {
+  if (CountWords(line) != columns) return LineKind::kMalformed;
   const std::string_view stamp = TakeWord(&line);
-  std::array<double, 7> values{};
-  for (double& value : values) {
-    if (!ParseNumber(TakeWord(&line), &value)) return LineKind::kMalformed;
+  std::array<double, 7> values{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+  for (std::size_t i = 0; i + 1 < columns; ++i) {
+    if (!ParseNumber(TakeWord(&line), &values[i])) return LineKind::kMalformed;
   }
-  if (!TakeWord(&line).empty()) return LineKind::kMalformed;
   const auto t_ns = ParseDecimalNs(stamp, 1'000'000'000);
   double stamp_number = 0.0;
   if (!t_ns) return ParseNumber(stamp, &stamp_number) ? LineKind::kUnusable : LineKind::kMalformed;
@@ -35,7 +53,6 @@ LineKind ParseLine(std::string_view line, StampedPose* pose) {
     pose->T_world_body.q.setIdentity();
     return LineKind::kWithoutRotation;
   }
-  pose->T_world_body.q.normalize();
   return LineKind::kPose;
 }
 
@@ -56,22 +73,32 @@ std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string
     warnings->push_back(path.string() + ": line " + std::to_string(number) + " " + what);
   };
   MeaningfulLines lines(text);
+  std::size_t columns = 0;
+  bool all_are_units = true;
   for (std::string_view line; lines.Next(&line);) {
+    if (columns == 0) columns = CountWords(line) == 4 ? 4 : 8;
     StampedPose pose;
-    const LineKind kind = ParseLine(line, &pose);
-    if (kind == LineKind::kPose) {
+    const LineKind kind = ParseLine(line, columns, &pose);
+    const bool may_be_cut = lines.at_end() && !ends_with_line;
+    const bool is_unit = std::abs(pose.T_world_body.q.norm() - 1.0) < kCutNorm;
+    if (kind == LineKind::kPose && may_be_cut && !is_unit && all_are_units && !poses.empty()) {
+      warn(lines.number(), "is skipped: its end is missing, as after an interrupted recording");
+    } else if (kind == LineKind::kPose) {
+      all_are_units = all_are_units && is_unit;
+      pose.T_world_body.q.normalize();
       poses.push_back(pose);
     } else if (kind == LineKind::kWithoutRotation) {
       positions.push_back(pose);
       position_lines.push_back(lines.number());
     } else if (kind == LineKind::kUnusable) {
       warn(lines.number(), "is skipped: a number is not finite");
-    } else if (lines.at_end() && !ends_with_line) {
+    } else if (may_be_cut || (lines.at_end() && IsBeginOfLine(line, columns))) {
       warn(lines.number(), "is skipped: it is incomplete, as after an interrupted recording");
     } else {
       throw InputError(
           path, "line " + std::to_string(lines.number()) + " is not 'stamp x y z qx qy qz qw'",
-          "A TUM trajectory has eight numbers a line, separated by blanks.");
+          "A TUM trajectory has eight numbers a line, separated by blanks; positions alone have "
+          "four, 'stamp x y z'.");
     }
   }
   if (poses.empty() && !positions.empty()) {

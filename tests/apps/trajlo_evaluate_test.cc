@@ -105,6 +105,14 @@ TEST_F(TrajloEvaluateTest, ARunThatExplodedIsDivergedAndNotAnError) {
   EXPECT_TRUE(Json()["estimates"][0]["ate"]["translation_m"]["rmse"].is_null());
 }
 
+TEST_F(TrajloEvaluateTest, AFolderOfAResultStandsForItsTrajectory) {
+  std::filesystem::create_directories(temp_ / "result");
+  WritePoses("result/trajectory.tum", Disturbed(0.01));
+  const Outcome outcome = Call({"result/", "truth.tum", Output(), "--report=false"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(Json()["estimates"][0]["name"], "result");
+}
+
 TEST_F(TrajloEvaluateTest, AShortRunIsIncompleteAndNotDiverged) {
   WritePoses("short.tum", SmoothPoses(1.0, 0.1, 80));
   const Outcome outcome = Call({"short.tum", "truth.tum", Output(), "--report=false"});

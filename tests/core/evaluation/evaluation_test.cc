@@ -177,7 +177,8 @@ TEST(TimeOffset, AtTheEndOfTheRangeIsNotBelieved) {
   options.time_offset_reach_s = 0.1;
   const Evaluation e =
       Evaluate(SmoothPoses(2.0, 0.1, 100, 0.3), SmoothPoses(0.0, 0.01, 2000), options);
-  EXPECT_THAT(e.warnings, ::testing::Contains(HasSubstr("end of the range")));
+  EXPECT_THAT(e.warnings, ::testing::Contains(::testing::AllOf(
+                              HasSubstr("end of the range"), HasSubstr("--time_offset_reach_s"))));
   options.time_offset_s = -0.25;
   EXPECT_NEAR(Evaluate(SmoothPoses(2.0, 0.1, 100, 0.3), SmoothPoses(0.0, 0.01, 2000), options)
                   .time_offset_s,

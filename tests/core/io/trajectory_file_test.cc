@@ -86,6 +86,35 @@ TEST_F(TrajectoryFileTest, NumbersWhoseLengthIsInfiniteAreNoPose) {
   EXPECT_THAT(ErrorOf("1e200 1e200 0 0 -1e200 1e200 0 0 0 0 1 0\n"), HasSubstr("not finite"));
 }
 
+TEST_F(TrajectoryFileTest, ALastLineThatIsCutIsLeftOut) {
+  const std::string whole = "1 0 0 0 0 0 0.6 0.8\n2 0 0 0 0 0 0.6 0.8\n";
+  for (const char* cut : {"3", "3 0 0", "3 0 0 0 0 0 0.6 0.", "3 0 0 0 0 0 0.6 0.7",
+                          "3 0 0 0 0 0 0.6", "3 0 0\n", "3 0 0 0\n", "3 0 0 0 0 0 0.6\n"}) {
+    EXPECT_THAT(Read(whole + cut).t_ns, ElementsAre(1'000'000'000, 2'000'000'000)) << cut;
+    EXPECT_THAT(warnings_, ElementsAre(HasSubstr("line 3 is skipped"))) << cut;
+  }
+  EXPECT_EQ(Read(whole + "3 0 0 0 0 0 0.6 0.8").t_ns.size(), 3u);
+  EXPECT_EQ(Read("1 0 0 0 0 0 0 2\n2 0 0 0 0 0 0 2").t_ns.size(), 2u);  // No unit, and none cut.
+  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1\n2 0 0\n3 0 0 0 0 0 0 1\n"), HasSubstr("line 2 is not"));
+  EXPECT_THAT(ErrorOf(whole + "3 0 0 0 0 0 0.6 x\n"), HasSubstr("line 3 is not"));
+  EXPECT_THAT(ErrorOf(whole + "nonsense\n"), HasSubstr("line 3 is not"));
+}
+
+TEST_F(TrajectoryFileTest, PositionsAloneHaveNoRotation) {
+  const TrajectoryFile prism = Read("1 4 5 6\n2 7 8 9\n");
+  EXPECT_EQ(prism.format, TrajectoryFormat::kTum);
+  EXPECT_THAT(prism.t_ns, ElementsAre(1'000'000'000, 2'000'000'000));
+  EXPECT_EQ(prism.T_world_body[1].translation(), Eigen::Vector3d(7, 8, 9));
+  EXPECT_TRUE(prism.T_world_body[1].linear().isIdentity(0.0));
+  EXPECT_THAT(warnings_, IsEmpty());
+  EXPECT_THAT(ErrorOf("1 4 5 6\n2 7 8 9 0 0 0 1\n3 7 8 9\n"), HasSubstr("line 2"));
+}
+
+TEST_F(TrajectoryFileTest, AResultStandsForItsTrajectory) {
+  folder_.Write("trajectory.tum", "1 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(ReadTrajectory(folder_.path(), TrajectoryFormat::kAuto, &warnings_).t_ns.size(), 1u);
+}
+
 TEST_F(TrajectoryFileTest, ManyWarningsAreCondensed) {
   std::string text;
   for (int i = 0; i < 100; ++i) text += std::to_string(i) + " nan 0 0 0 0 0 1\n";

@@ -147,7 +147,7 @@ TEST(ReadTum, AWrongNumberOfColumnsOrTextIsAnErrorThatNamesTheLine) {
   for (const std::string line :
        {"1 1 2 3 0 0 0", "1 1 2 3 0 0 0 1 9", "1 a 2 3 0 0 0 1", "x 1 2 3 0 0 0 1"}) {
     try {
-      ReadTum(folder.Write("a.tum", "0 1 2 3 0 0 0 1\n" + line + "\n"));
+      ReadTum(folder.Write("a.tum", "0 1 2 3 0 0 0 1\n" + line + "\n2 1 2 3 0 0 0 1\n"));
       FAIL() << line;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("line 2"));
