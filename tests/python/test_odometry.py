@@ -136,6 +136,43 @@ class MisuseTest(unittest.TestCase):
         with self.assertWarnsRegex(trajlo.TrajloWarning, "has the poses of 2 LiDARs"):
             run_room({"sensor.T_body_lidar": [{}, {}]})
 
+    def test_arrays_without_times_are_doubted_once(self):
+        def told(options, points_of):
+            odometry = trajlo.Odometry({"threads": 1, **options})
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                for index in range(3):
+                    odometry.add(points_of(index), stamp_ns=STAMP + index * 10**8)
+            return [w for w in caught if "points have no times of their own" in str(w.message)]
+
+        found = told({}, lambda index: room_points(seed=index))
+        self.assertEqual(len(found), 1)
+        self.assertTrue(issubclass(found[0].category, trajlo.TrajloWarning))
+        self.assertIn(__file__, found[0].filename)
+        self.assertEqual(told({"input.point_time": "none"}, lambda i: room_points(seed=i)), [])
+        self.assertEqual(told({}, lambda index: np.empty((0, 3))), [])
+
+    def test_poses_that_nothing_holds_are_mentioned(self):
+        odometry = trajlo.Odometry({"threads": 1})
+        for index in range(8):
+            scan = room_scan(index)
+            floor = scan.points * [1.0, 1.0, 0.0] - [0.0, 0.0, 1.5]
+            odometry.add(floor, scan.times_s, stamp_ns=scan.stamp_ns)
+        with self.assertWarnsRegex(trajlo.TrajloWarning,
+                                   "the points leave a direction open.*flag degenerate"):
+            odometry.finish()
+
+    def test_stamps_that_count_scans_are_mentioned(self):
+        for step, warns in ((1, True), (100_000, True), (100_000_000, False)):
+            odometry = trajlo.Odometry({"threads": 1, "input.point_time": "none"})
+            for index in range(20):
+                odometry.add(room_points(seed=index), stamp_ns=index * step)
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                odometry.finish()
+            found = any("stamp_ns counts nanoseconds" in str(w.message) for w in caught)
+            self.assertEqual(found, warns, step)
+
     def test_stamps_that_stand_still_are_a_partial_input(self):
         odometry = trajlo.Odometry({"threads": 1})
         for index in range(20):

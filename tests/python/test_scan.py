@@ -45,6 +45,13 @@ class ScanTest(unittest.TestCase):
             np.testing.assert_array_equal(trajlo.Scan(same, stamp_ns=STAMP).points, scan.points)
         self.assertFalse(scan.has_point_times)
 
+    def test_a_fourth_column_is_the_intensity(self):
+        points = np.column_stack([room_points(50), np.arange(50)])
+        for same in (points, points.astype(np.float32), np.asfortranarray(points)):
+            scan = trajlo.Scan(same, stamp_ns=STAMP)
+            np.testing.assert_array_equal(scan.points, points[:, :3].astype(np.float32))
+            np.testing.assert_array_equal(scan.intensities, np.arange(50))
+
     def test_views_are_no_copies_and_outlive_their_scan(self):
         scan = trajlo.Scan(room_points(1000), stamp_ns=STAMP)
         first, second = scan.points, scan.points
@@ -76,11 +83,12 @@ class ScanTest(unittest.TestCase):
         points = room_points(4)
         nan_time = np.array([0.0, 0.1, np.nan, 0.2])
         cases = [
-            ("points: must be of shape .*found the shape .3, 4", dict(points=points.T)),
+            ("points: must be of shape .*found the shape .3, 5", dict(points=np.zeros((3, 5)))),
             ("points: must be of shape", dict(points=points[0])),
             ("points: must be of shape", dict(points=np.empty(0))),
             ("points: must be of shape", dict(points=np.empty((4, 2)))),
-            ("points: must be float32 or float64, found an array of int16",
+            ("points: must be float32 or float64, found an array of int16: whole numbers are "
+             "mostly millimetres",
              dict(points=np.zeros((4, 3), np.int16))),
             ("points: must be float32 or float64", dict(points=points.astype(complex))),
             ("points: must be float32 or float64", dict(points=points > 0)),
@@ -102,6 +110,8 @@ class ScanTest(unittest.TestCase):
             ("lidar: must be a number from 0", dict(lidar=-1)),
             ("lidar: must be a number from 0", dict(lidar=10**12)),
             ("stamp_ns: must be within", dict(stamp_ns=2**62 + 1)),
+            ("stamp_ns: must be within", dict(stamp_ns=2**70)),
+            ("points: have intensities", dict(points=np.zeros((4, 4)), intensities=np.zeros(4))),
         ]
         for message, wrong in cases:
             with self.subTest(message):
@@ -144,9 +154,11 @@ class ScanTest(unittest.TestCase):
         self.assertGreater(made, 100)
 
     def test_stamps_are_whole_nanoseconds(self):
-        for stamp in (1.5, "now", None, 2**70):
-            with self.assertRaises(TypeError):
+        for stamp in (1.5, 1.6e18, np.float64(1.6e18), np.float32(5), "now", None):
+            with self.assertRaisesRegex(TypeError, "stamp_ns: must be a whole number of nanosec"):
                 trajlo.Scan(room_points(4), stamp_ns=stamp)
+        with self.assertRaisesRegex(TypeError, r"found 1.6e\+18; a float is exact to 256 ns"):
+            trajlo.Scan(room_points(4), stamp_ns=1.6e18)
         self.assertEqual(trajlo.Scan(room_points(4), stamp_ns=np.int64(5)).stamp_ns, 5)
 
 

@@ -45,10 +45,14 @@ T Load(const char* at) {
 
 template <typename T>
 void CopyPoints(const py::array& array, std::vector<LidarPoint>* points) {
+  const bool has_intensities = array.shape(1) == 4;
   const char* row = static_cast<const char*>(array.data());
   for (LidarPoint& point : *points) {
     for (int i = 0; i < 3; ++i) {
       point.xyz_m[i] = static_cast<float>(Load<T>(row + i * array.strides(1)));
+    }
+    if (has_intensities) {
+      point.intensity = static_cast<float>(Load<T>(row + 3 * array.strides(1)));
     }
     row += array.strides(0);
   }
@@ -98,10 +102,18 @@ py::array_t<std::int64_t> Int64Array(const py::array& array, const char* name) {
 
 }  // namespace
 
-void ReadPoints(const py::object& object, std::vector<LidarPoint>* points) {
-  const py::array array = RealArray(object, "points");
-  if (array.ndim() != 2 || array.shape(1) != 3) {
-    Fail("points", "of shape (N, 3): x, y, z in metres", "the shape " + ShapeText(array));
+bool ReadPoints(const py::object& object, std::vector<LidarPoint>* points) {
+  const py::array given = Array(object, "points");
+  if (given.dtype().kind() == 'i' || given.dtype().kind() == 'u') {
+    Fail("points", "float32 or float64",
+         TypeText(given) +
+             ": whole numbers are mostly millimetres, and metres are needed (0.001 * points, or "
+             "points.astype(float) if they are metres)");
+  }
+  const py::array array = RealArray(given, "points");
+  if (array.ndim() != 2 || (array.shape(1) != 3 && array.shape(1) != 4)) {
+    Fail("points", "of shape (N, 3): x, y, z in metres, or (N, 4) with intensities",
+         "the shape " + ShapeText(array));
   }
   points->resize(static_cast<std::size_t>(array.shape(0)));
   if (py::isinstance<py::array_t<float>>(array)) {
@@ -109,6 +121,7 @@ void ReadPoints(const py::object& object, std::vector<LidarPoint>* points) {
   } else {
     CopyPoints<double>(array, points);
   }
+  return array.shape(1) == 4;
 }
 
 std::vector<double> ReadReals(const py::object& object, const char* name) {

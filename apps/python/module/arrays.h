@@ -16,8 +16,9 @@ namespace trajlo::python {
 
 namespace py = pybind11;
 
-/// Points (N, 3) of float32 or float64, m; fills xyz_m of `points`, which gets N elements.
-void ReadPoints(const py::object& array, std::vector<LidarPoint>* points);
+/// Points (N, 3) of float32 or float64, m, or (N, 4) with intensities; fills xyz_m and, of the
+/// latter, intensity of `points`, which gets N elements. True if there were intensities.
+bool ReadPoints(const py::object& array, std::vector<LidarPoint>* points);
 /// Numbers of any real kind, finite or not; of shape (N,), or a single one.
 std::vector<double> ReadReals(const py::object& array, const char* name);
 /// Whole numbers of any kind within int64; of shape (N,), or a single one.

@@ -15,7 +15,8 @@ namespace {
 
 constexpr char kDoc[] = R"(One scan of one LiDAR. It does not change.
 
-points       (N, 3) float32 or float64, metres, in the frame of the LiDAR; NaN for no return
+points       (N, 3) float32 or float64, metres, in the frame of the LiDAR; NaN for no return;
+             or (N, 4): x, y, z, intensity
 times_s      (N,) float, seconds after the stamp: when each point was measured
 times_ns     (N,) int, nanoseconds, in the clock of stamp_ns; instead of times_s
 stamp_ns     int, nanoseconds: when the scan was measured
@@ -59,7 +60,7 @@ std::string Text(const LidarScan& scan) {
 }
 
 LidarScan Make(const py::object& points, const py::object& times_s, const py::object& times_ns,
-               std::int64_t stamp_ns, const py::object& intensities, std::int64_t lidar) {
+               const py::object& stamp_ns, const py::object& intensities, std::int64_t lidar) {
   return MakeScan({points, times_s, times_ns, intensities, stamp_ns, lidar});
 }
 

@@ -10,6 +10,8 @@
 namespace trajlo::python {
 namespace {
 
+namespace py = pybind11;
+
 /// Times of points count from the stamp; more than a minute is no sweep, but another unit or an
 /// absolute time.
 constexpr double kLongest_s = 60.0;
@@ -23,9 +25,24 @@ void RequireLength(std::size_t found, std::size_t points, const std::string& nam
                   " points, found " + std::to_string(found));
 }
 
-void CheckStamp(std::int64_t stamp_ns) {
-  if (stamp_ns >= -kLatest_ns && stamp_ns <= kLatest_ns) return;
-  throw DataError("stamp_ns: must be within ±2^62 ns, found " + std::to_string(stamp_ns));
+std::int64_t ReadStamp(const py::object& stamp) {
+  const std::string found = py::repr(stamp);
+  if (PyFloat_Check(stamp.ptr()) != 0) {
+    throw py::type_error("stamp_ns: must be a whole number of nanoseconds, found " + found +
+                         "; a float is exact to 256 ns only, a second since 1970 is "
+                         "int(seconds) * 10**9");
+  }
+  if (PyIndex_Check(stamp.ptr()) == 0) {
+    throw py::type_error("stamp_ns: must be a whole number of nanoseconds, found " + found);
+  }
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(stamp.ptr()));
+  if (!number) throw py::error_already_set();
+  int overflow = 0;
+  const long long stamp_ns = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow != 0 || stamp_ns < -kLatest_ns || stamp_ns > kLatest_ns) {
+    throw DataError("stamp_ns: must be within ±2^62 ns, found " + found);
+  }
+  return stamp_ns;
 }
 
 /// A time that is not finite tells nothing, which is fine for points that tell nothing either.
@@ -65,11 +82,13 @@ LidarScan MakeScan(const ScanArrays& arrays) {
     throw DataError("lidar: must be a number from 0 to " + std::to_string(kMaxLidar) + ", found " +
                     std::to_string(arrays.lidar));
   }
-  CheckStamp(arrays.stamp_ns);
   LidarScan scan;
   scan.lidar_id = static_cast<int>(arrays.lidar);
-  scan.stamp_ns = arrays.stamp_ns;
-  ReadPoints(arrays.points, &scan.points);
+  scan.stamp_ns = ReadStamp(arrays.stamp_ns);
+  const bool has_intensities = ReadPoints(arrays.points, &scan.points);
+  if (has_intensities && !arrays.intensities.is_none()) {
+    throw DataError("points: have intensities, (N, 4), and intensities are given as well");
+  }
   SetTimes(arrays, &scan);
   if (!arrays.intensities.is_none()) {
     const std::vector<double> values = ReadReals(arrays.intensities, "intensities");

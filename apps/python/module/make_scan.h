@@ -11,11 +11,12 @@ namespace trajlo::python {
 
 /// What a user says about a scan; None where nothing is said.
 struct ScanArrays {
-  pybind11::object points;       ///< (N, 3), m, LiDAR frame; NaN for a return that is missing.
+  /// (N, 3), m, LiDAR frame, or (N, 4) with intensities; NaN for a return that is missing.
+  pybind11::object points;
   pybind11::object times_s;      ///< (N,), after the stamp; or
   pybind11::object times_ns;     ///< (N,), absolute; neither: the scan is motion-corrected.
   pybind11::object intensities;  ///< (N,)
-  std::int64_t stamp_ns;
+  pybind11::object stamp_ns;     ///< A whole number.
   std::int64_t lidar;
 };
 

@@ -9,10 +9,14 @@
 #include "apps/python/module/arrays.h"
 #include "apps/python/module/window_table.h"
 #include "core/comparison/forms/ceres_form_solver.h"
+#include "core/report/flag_warnings.h"
 #include "core/report/run_summary.h"
 
 namespace trajlo::python {
 namespace {
+
+/// No LiDAR, nor a packet of one, is so fast: 100 ms told in another unit.
+constexpr std::int64_t kShortest_ns = 200'000;
 
 py::array_t<double> CovarianceArray(const Matrix6d& covariance) {
   py::array_t<double> array({6, 6});
@@ -92,6 +96,9 @@ void OdometrySession::Add(const LidarScan& scan) {
   RequireOpen();
   RequireExtrinsicOf(scan.lidar_id);
   newest_lidar_ = std::max(newest_lidar_, scan.lidar_id);
+  first_stamp_ns_ = scans_ == 0 ? scan.stamp_ns : std::min(first_stamp_ns_, scan.stamp_ns);
+  last_stamp_ns_ = scans_ == 0 ? scan.stamp_ns : std::max(last_stamp_ns_, scan.stamp_ns);
+  ++scans_;
   Compute([&] { odometry_.AddScan(scan); });
   Rethrow();
 }
@@ -163,6 +170,15 @@ std::vector<std::string> OdometrySession::Remarks() const {
   if (!odd_stamps.empty()) {
     remarks.push_back("of " + std::to_string(summary.times.scans) + " scans: " + odd_stamps);
   }
+  if (scans_ > 1 && first_stamp_ns_ < last_stamp_ns_ &&
+      (last_stamp_ns_ - first_stamp_ns_) / (scans_ - 1) < kShortest_ns) {
+    remarks.push_back("all " + std::to_string(scans_) + " scans have stamps within " +
+                      std::to_string(last_stamp_ns_ - first_stamp_ns_) +
+                      " ns: stamp_ns counts nanoseconds, not scans, and in no other unit");
+  }
+  summary.flags = PoseFlags(odometry().trajectory().poses(), odometry().lost_at_ns());
+  for (const WindowStatistics& window : windows_) summary.windows.Add(window);
+  for (const std::string& warning : FlagWarnings(summary)) remarks.push_back(warning);
   const std::size_t given = config_.odometry.segmenter.T_body_lidar.size();
   if (given > 1 && newest_lidar_ + 1 < static_cast<int>(given)) {
     remarks.push_back("sensor.T_body_lidar has the poses of " + std::to_string(given) +

@@ -3,6 +3,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <cstdint>
 #include <exception>
 #include <optional>
 #include <string>
@@ -35,6 +36,10 @@ class OdometrySession {
   /// Throws also InputError if no point could be used.
   void Finish();
 
+  /// False where the options say that scans of this LiDAR are motion-corrected.
+  bool ExpectsTimes(std::int64_t lidar) const {
+    return config_.input.use_point_times.Of(static_cast<std::size_t>(lidar < 0 ? 0 : lidar));
+  }
   bool is_finished() const { return is_finished_; }
   /// These throw StateError while another thread computes.
   const Odometry& odometry() const;
@@ -42,7 +47,7 @@ class OdometrySession {
   py::array_t<double> Covariances() const;
   py::array_t<double> MapPoints() const;
   py::dict PointCounts() const;
-  /// Sentences about odd stamps, and about a part of the input that is missing.
+  /// Sentences about odd stamps and doubtful poses, and about a part of the input that is missing.
   std::vector<std::string> Remarks() const;
   std::string MissingInput() const;
 
@@ -64,7 +69,9 @@ class OdometrySession {
   std::exception_ptr thrown_by_callback_;
   std::string failure_;
   bool is_finished_ = false;
-  int newest_lidar_ = -1;  ///< The largest number so far.
+  int newest_lidar_ = -1;                                ///< The largest number so far.
+  std::int64_t first_stamp_ns_ = 0, last_stamp_ns_ = 0;  ///< The earliest and the latest so far.
+  std::int64_t scans_ = 0;
   Odometry odometry_;
 };
 

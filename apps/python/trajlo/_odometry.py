@@ -41,19 +41,22 @@ class Odometry:
         self._config = make_config(options, config)
         self._session = _trajlo.Session(self._config, on_window, on_pose, covariance)
         self._told_lost = False
+        self._told_without_times = False
 
     def add(self, scan: Any, times_s: Any = None, *, times_ns: Any = None,
             stamp_ns: Optional[int] = None, intensities: Any = None, lidar: int = 0) -> None:
         """Adds a Scan, or the arrays of one: see Scan. Scans of a LiDAR come in the order of time.
 
         Raises InputError for arrays that do not fit, ConfigError for a LiDAR that
-        sensor.T_body_lidar does not place, StateError after finish(). Warns with LostWarning.
+        sensor.T_body_lidar does not place, StateError after finish(). Warns with LostWarning, and
+        with TrajloWarning about arrays without times, unless input.point_time is none.
         """
         if not isinstance(scan, Scan):
             if stamp_ns is None:
                 raise TypeError("stamp_ns is missing: when the scan was measured, in nanoseconds")
             scan = Scan(scan, times_s, times_ns=times_ns, stamp_ns=stamp_ns,
                         intensities=intensities, lidar=lidar)
+            self._warn_without_times(scan)
         elif not (times_s is None and times_ns is None and stamp_ns is None
                   and intensities is None and lidar == 0):
             raise TypeError("a Scan has its own times, stamp, intensities and LiDAR")
@@ -64,7 +67,8 @@ class Odometry:
         """Processes what is left; all poses are final then, and no more scans are taken.
 
         Raises InputError if no point could be used. Warns with LostWarning, with
-        PartialInputWarning if much was dropped, and with TrajloWarning about odd stamps.
+        PartialInputWarning if much was dropped, and with TrajloWarning about odd stamps, and about
+        poses that the points do not hold, as trajlo_run does; `windows` has their flags.
         """
         self._session.finish()
         self._warn_if_lost()
@@ -73,6 +77,15 @@ class Odometry:
         missing = self._session.missing_input()
         if missing:
             warnings.warn(missing, PartialInputWarning, stacklevel=2)
+
+    def _warn_without_times(self, scan: Scan) -> None:
+        if (self._told_without_times or scan.has_point_times or len(scan) == 0
+                or not self._session.expects_times(scan.lidar)):
+            return
+        self._told_without_times = True
+        warnings.warn("points have no times of their own: right for motion-corrected scans only, "
+                      "others blur with every turn (the option input.point_time=none says that "
+                      "they are corrected)", TrajloWarning, stacklevel=3)
 
     def _warn_if_lost(self) -> None:
         t_ns = self._session.lost_at_ns()
