@@ -10,6 +10,7 @@
 
 #include "apps/command.h"
 #include "apps/convert/convert_job.h"
+#include "apps/convert/pose_files.h"
 #include "apps/interrupt.h"
 #include "apps/load_config.h"
 #include "apps/split_at_commas.h"
@@ -60,6 +61,9 @@ constexpr char kHelp[] =
   trajlo_convert result poses.txt
       the poses in KITTI's format, and poses_times.txt; with .tum in TUM's
 
+  trajlo_convert truth.csv truth.tum
+      a trajectory in another format: from TUM's or EuRoC's to TUM's, or KITTI's (.txt)
+
   trajlo_convert recording.bag part.bag --start_s=60 --duration_s=30
       an excerpt by time of recording; messages of all topics are copied byte by byte
   trajlo_convert broken.bag repaired.bag --compression=lz4
@@ -81,8 +85,14 @@ constexpr char kHelp[] =
 Flags of results:
   --recording=PATH              where the recording is now; else where it was
   --keep_lost                   also poses from where the estimator got lost on
+  --noscans, --nomap            no deskewed scans, no map in a bag
+  --voxel_m=M                   one point of the map for each voxel of that size; 0: as the run's map
+  --color=height|intensity|time   of the map
+  --frame=body|world            of deskewed scans (body)
+  --scan_format=pcd|ply         of a folder of deskewed scans
 Flags of recordings:
   --topics=A,B                  of a bag; else all
+  --poses=TOPIC                 write the poses of that topic, in TUM's format
   --start_s=S --duration_s=S    from the first message (of its kind) on
   --layout=ouster|velodyne|livox
   --set=input.time_unit=us, --config=NAME   how point times are meant, as for trajlo_run
@@ -174,6 +184,23 @@ void CheckEnding(const std::filesystem::path& output, const std::vector<std::str
                    " (the name of a folder, if it has a dot, must end in '/')");
 }
 
+/// Maps and poses are asked of recordings that have none yet.
+void RefuseWhatResultsGive(const std::filesystem::path& output) {
+  const std::string ending = output.extension().string();
+  if (ending == ".ply" || ending == ".pcd") {
+    throw UsageError(
+        "a map comes from a result, and the input is a recording: trajlo_run RECORDING "
+        "-o RESULT, then trajlo_convert RESULT " +
+        output.string());
+  }
+  if (ending == ".tum" || ending == ".txt") {
+    throw UsageError(
+        "poses come from a result (trajlo_run RECORDING -o RESULT, then trajlo_convert "
+        "RESULT " +
+        output.string() + "), or from a topic of a bag: --poses=TOPIC");
+  }
+}
+
 /// Flags that a result has no use for are mistakes.
 void CheckResultOutput(const trajlo::ConvertRequest& request) {
   const bool is_excerpt = FLAGS_start_s > 0.0 || FLAGS_duration_s > 0.0;
@@ -212,7 +239,10 @@ trajlo::ConvertRequest RequestFromFlags(std::vector<std::string> arguments) {
   CheckOutput(request);
   if (trajlo::IsRunResult(request.input)) {
     CheckResultOutput(request);
+  } else if (trajlo::IsTrajectoryFile(request.input)) {
+    CheckEnding(request.output, {"tum", "txt"});
   } else {
+    if (request.poses.empty()) RefuseWhatResultsGive(request.output);
     CheckEnding(request.output, request.poses.empty()
                                     ? std::vector<std::string>{"mcap", "db3", "bag"}
                                     : std::vector<std::string>{"tum", "txt"});

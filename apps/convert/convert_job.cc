@@ -6,6 +6,7 @@
 
 #include "apps/convert/convert_scans.h"
 #include "apps/convert/export_result.h"
+#include "apps/convert/pose_files.h"
 #include "apps/convert/protect_input.h"
 #include "apps/print_warnings.h"
 #include "core/export/run_result.h"
@@ -127,6 +128,7 @@ ExitCode WriteScans(const ConvertRequest& request, const std::atomic<bool>& stop
 
 ExitCode Convert(const ConvertRequest& request, const std::atomic<bool>& stop) {
   if (IsRunResult(request.input)) return ExportResult(request, stop);
+  if (IsTrajectoryFile(request.input)) return ConvertTrajectory(request);
   ProtectInput(FilesOfRecording(InputPaths(request.input), request.recording), request.output);
   if (!request.poses.empty()) return WritePoses(request);
   const bool copy = request.WritesBag() && !request.layout && HoldsMessages(request.input);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/convert/pose_files.h"
 #include "apps/convert/protect_input.h"
 #include "apps/print_warnings.h"
 #include "core/export/map_file.h"
@@ -17,12 +18,11 @@
 #include "core/export/result_bag.h"
 #include "core/export/run_result.h"
 #include "core/export/surface_map.h"
-#include "core/io/atomic_file.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/errors.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
-#include "core/io/trajectory_writer.h"
+#include "core/io/trajectory_reader.h"
 #include "core/report/progress_bar.h"
 #include "core/report/result_folder.h"
 
@@ -150,31 +150,12 @@ double VoxelOf(const ConvertRequest& request, const RunResult& result) {
   return result.config.odometry.map.finest.min_point_spacing_m;
 }
 
-ExitCode WritePoseFile(const ConvertRequest& request, const RunResult& result) {
-  const std::vector<ControlPose>& poses = result.trajectory.poses();
-  if (request.output.extension() == ".tum") {
-    TumWriter tum(request.output, request.WhatIfExists());
-    for (const ControlPose& pose : poses) tum.Append(pose.t_ns, pose.T_world_body);
-    tum.Flush();
-    tum.Close();
-  } else {
-    // KITTI's format has no times: they stand beside it. Neither is begun if the other is in the
-    // way.
-    const fs::path times_path =
-        request.output.parent_path() / (request.output.stem().string() + "_times.txt");
-    AtomicFile times(times_path, request.WhatIfExists());
-    KittiWriter kitti(request.output, request.WhatIfExists());
-    for (const ControlPose& pose : poses) {
-      kitti.Append(pose.T_world_body);
-      times.Write(FormatSeconds(pose.t_ns) + "\n");
-    }
-    kitti.Flush();
-    kitti.Close();
-    times.Commit();
-    if (!request.quiet) std::printf("times in %s\n", times_path.c_str());
+ExitCode WritePosesOf(const ConvertRequest& request, const RunResult& result) {
+  std::vector<StampedPose> poses;
+  for (const ControlPose& pose : result.trajectory.poses()) {
+    poses.push_back({pose.t_ns, pose.T_world_body});
   }
-  if (!request.quiet) std::printf("%zu poses in %s\n", poses.size(), request.output.c_str());
-  return ExitCode::kOk;
+  return WritePoseFile(request, poses);
 }
 
 ExitCode WriteMap(const ConvertRequest& request, const RunResult& result,
@@ -266,7 +247,7 @@ ExitCode ExportResult(const ConvertRequest& request, const std::atomic<bool>& st
   ProtectResult(request, result);
   WarnOfResult(result);
   const fs::path extension = request.output.extension();
-  if (extension == ".tum" || extension == ".txt") return WritePoseFile(request, result);
+  if (extension == ".tum" || extension == ".txt") return WritePosesOf(request, result);
   if (extension == ".pcd" || extension == ".ply") return WriteMap(request, result, stop);
   if (IsBagName(request.output)) return WriteBag(request, result, stop);
   return WriteScanFolder(request, result, stop);

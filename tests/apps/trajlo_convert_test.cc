@@ -47,6 +47,38 @@ TEST_F(TrajloConvert, HelpTeachesByExample) {
                               Not(HasSubstr("minloglevel"))));
 }
 
+TEST_F(TrajloConvert, ATrajectoryBecomesOneOfAnotherFormat) {
+  WriteFile(Path("truth.csv"), "#t,x,y,z,qw,qx,qy,qz\n5000000000,1,2,3,1,0,0,0\n");
+  ASSERT_EQ(Convert({Path("truth.csv"), Path("truth.tum")}).exit_code, 0);
+  const std::vector<StampedPose> poses = ReadTum(Path("truth.tum"));
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_EQ(poses[0].t_ns, 5'000'000'000);
+  EXPECT_EQ(poses[0].T_world_body.t, Eigen::Vector3d(1, 2, 3));
+  ASSERT_EQ(Convert({Path("truth.tum"), Path("truth.txt")}).exit_code, 0);
+  EXPECT_EQ(ReadFile(Path("truth_times.txt")), "5.000000000\n");
+  const Outcome without_times = Convert({Path("truth.txt"), Path("again.tum")});
+  EXPECT_EQ(without_times.exit_code, 2);
+  EXPECT_THAT(without_times.err, HasSubstr("without stamps"));
+  EXPECT_EQ(Convert({Path("truth.csv"), Path("truth.tum")}).exit_code, 5);
+  EXPECT_EQ(Convert({Path("truth.csv"), Path("truth.bag")}).exit_code, 1);
+}
+
+TEST_F(TrajloConvert, MapsAndPosesOfARecordingAreSentToAResult) {
+  const Outcome map = Convert({Path("room"), Path("a.ply")});
+  EXPECT_EQ(map.exit_code, 1);
+  EXPECT_THAT(map.err, AllOf(HasSubstr("comes from a result"), HasSubstr("trajlo_convert RESULT")));
+  const Outcome poses = Convert({Path("room"), Path("a.tum")});
+  EXPECT_EQ(poses.exit_code, 1);
+  EXPECT_THAT(poses.err, HasSubstr("--poses=TOPIC"));
+}
+
+TEST_F(TrajloConvert, AnEmptyFileIsSaidToBeOne) {
+  WriteFile(Path("empty.bag"), "");
+  const Outcome outcome = Convert({Path("empty.bag"), Path("scans")});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("the file is empty"));
+}
+
 TEST_F(TrajloConvert, WrongUsageExitsWithOne) {
   EXPECT_EQ(Convert({Path("room")}).exit_code, 1);
   EXPECT_EQ(Convert({Path("room"), Path("a.bag"), "--layout=hexagon"}).exit_code, 1);

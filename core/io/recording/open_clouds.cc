@@ -84,6 +84,9 @@ std::unique_ptr<CloudMessageReader> OpenRos2(const fs::path& path) {
 
 std::unique_ptr<CloudMessageReader> OpenFile(const fs::path& path, const CloudOptions& options) {
   const std::string bytes = FirstBytes(path);
+  if (bytes.empty()) {
+    throw InputError(path, "the file is empty", "Was it copied, or recorded, to its end?");
+  }
   if (BeginsWith(bytes, "#ROSBAG V")) return OpenRos1(path, options);
   if (BeginsAsPackets(bytes)) {
     return std::make_unique<PacketCloudReader>(path, options.packets);
