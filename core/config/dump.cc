@@ -9,8 +9,20 @@ namespace {
 
 constexpr std::size_t kColumns = 100;
 
+/// The first sentence is what `trajlo_run --list_configs` says of the file.
+std::string FirstSentence(DumpedOptions options) {
+  switch (options) {
+    case DumpedOptions::kForUsers:
+      return "The options for users: their values, what they mean and what they may be.";
+    case DumpedOptions::kForExperts:
+      return "The options for research: their values, what they mean and what they may be.";
+    case DumpedOptions::kAll:
+      break;
+  }
+  return "The configuration of trajlo: options, their values, what they mean and what they may be.";
+}
+
 constexpr char kHeader[] =
-    "# The configuration of trajlo: options, their values, what they mean and what they may be.\n"
     "# A config file needs only the keys that it changes; `--set=key=value` changes one for a "
     "run.\n"
     "# A sigma is a standard deviation, and a residual is divided by it.\n";
@@ -63,7 +75,7 @@ std::string ValueLines(const Option& option, const std::string& indent) {
 
 std::string DumpConfig(const RunConfig& config, DumpedOptions options) {
   RunConfig copy = config;  // Options are bound to something that they could change.
-  std::string text = kHeader;
+  std::string text = "# " + FirstSentence(options) + "\n" + kHeader;
   std::vector<std::string> open;
   for (const Option& option : BindOptions(&copy)) {
     const bool is_expert = option.key.rfind("expert.", 0) == 0;

@@ -30,7 +30,7 @@ class Loader {
   void Set(const std::string& key, const YAML::Node& key_node, const YAML::Node& value) {
     const Option* option = Find(key);
     if (option == nullptr && unknown_ != nullptr) return unknown_->push_back(key);
-    if (option == nullptr) FailUnknown(key, key_node);
+    if (option == nullptr) FailUnknown(key, key_node, value.IsMap());
     if (!seen_.insert(key).second) Fail(key_node, "'" + key + "' is set twice");
     try {
       SetOption(value, *option);
@@ -86,9 +86,17 @@ class Loader {
     return text;
   }
 
-  [[noreturn]] void FailUnknown(const std::string& key, const YAML::Node& node) const {
+  /// What holds a map is meant as a section.
+  [[noreturn]] void FailUnknown(const std::string& key, const YAML::Node& node,
+                                bool is_section) const {
     std::vector<std::string> keys;
-    for (const Option& option : options_) keys.push_back(option.key);
+    for (const Option& option : options_) {
+      if (!is_section) keys.push_back(option.key);
+      for (std::size_t dot = option.key.find('.'); is_section && dot != std::string::npos;
+           dot = option.key.find('.', dot + 1)) {
+        keys.push_back(option.key.substr(0, dot));
+      }
+    }
     const std::string expert = "expert." + key;
     const std::string nearest =
         Find(expert) != nullptr || IsSection(expert) ? expert : NearestKey(key, keys);

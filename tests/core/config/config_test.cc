@@ -50,6 +50,10 @@ TEST(Config, UnknownKeyNamesFileLineColumnAndNearestKey) {
 
 TEST(Config, KeyInTheWrongSectionIsRecognisedByItsLastPart) {
   EXPECT_THAT(LoadingError("segments: 3"), HasSubstr("did you mean 'window.segments'?"));
+  EXPECT_THAT(LoadingError("windw: {segments: 3}"),
+              HasSubstr("unknown key 'windw'; did you mean 'window'?"));
+  EXPECT_THAT(LoadingError("expert: {marginalizatoin: {enabled: false}}"),
+              HasSubstr("did you mean 'expert.marginalization'?"));
   EXPECT_THAT(LoadingError("map: {min_range_m: 3}"),
               HasSubstr("did you mean 'sensor.min_range_m'?"));
 }
