@@ -3,6 +3,8 @@
 
 #include <gflags/gflags.h>
 #include <malloc.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -86,6 +88,12 @@ ExitCode Run(const Command& command, int argc, char** argv) {
   return command.run(line);
 }
 
+/// True if stdout is a pipe whose reader has gone, as head does when it has enough.
+bool NobodyReads() {
+  pollfd out = {STDOUT_FILENO, POLLOUT, 0};
+  return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
+}
+
 ExitCode Fail(const Command& command, ExitCode code, const char* what) {
   std::fprintf(stderr, "%s: %s\n", command.name, what);
   if (code == ExitCode::kUsage) std::fprintf(stderr, "(%s --help shows examples)\n", command.name);
@@ -97,7 +105,7 @@ ExitCode RunGuarded(const Command& command, int argc, char** argv) {
   try {
     const ExitCode code = Run(command, argc, argv);
     const bool is_said = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-    if (code != ExitCode::kOk || is_said) return code;
+    if (code != ExitCode::kOk || is_said || NobodyReads()) return code;
     return Fail(command, ExitCode::kOutputNotWritable, "not all of what it says could be printed");
   } catch (const UsageError& error) {
     return Fail(command, ExitCode::kUsage, error.what());

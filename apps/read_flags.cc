@@ -37,12 +37,35 @@ FlagWord TakeApart(const std::string& word) {
   return flag;
 }
 
+/// The switch that the name negates: view of noview and of no_view; empty if there is none.
+std::string Negated(const std::string& command, const std::string& name) {
+  for (const CommandLineFlagInfo& known : FlagsOf(command)) {
+    if (known.type != "bool") continue;
+    if (name == "no" + known.name || name == "no_" + known.name) return known.name;
+  }
+  return "";
+}
+
+/// The first name that begins with the letter, as of -v and -q; empty if none does.
+std::string ByLetter(char letter, const std::vector<std::string>& names) {
+  const auto meant = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return name[0] == std::tolower(static_cast<unsigned char>(letter));
+  });
+  return meant == names.end() ? "" : *meant;
+}
+
 [[noreturn]] void FailUnknown(const std::string& command, const FlagWord& flag) {
   std::vector<std::string> names = {"help", "version"};
   for (const CommandLineFlagInfo& known : FlagsOf(command)) names.push_back(known.name);
   const bool has_options = std::find(names.begin(), names.end(), "set") != names.end();
   std::string mend;
-  if (has_options && flag.name.find('.') != std::string::npos) {
+  if (const std::string negated = Negated(command, flag.name); !negated.empty()) {
+    mend = flag.value ? " with a value; --" + negated + "=false, or --no" + negated + " alone"
+                      : "; did you mean --no" + negated + "?";
+  } else if (flag.name.size() == 1) {
+    const std::string meant = ByLetter(flag.name[0], names);
+    if (!meant.empty()) mend = "; did you mean --" + meant + "?";
+  } else if (has_options && flag.name.find('.') != std::string::npos) {
     mend = "; options are set with --set " + flag.name + "=" + flag.value.value_or("VALUE");
   } else if (const std::string nearest = NearestKey(flag.name, names); !nearest.empty()) {
     mend = "; did you mean --" + nearest + "?";

@@ -65,6 +65,10 @@ Flags:
                             all options)
   --threads=N               for all variants (1, which makes their times comparable)
   --mode=lockstep|free|both
+  --variants=FILE           YAML with the variants (config/comparisons/solvers.yaml)
+  --only=A,B                those of the variants to take; the first is the yardstick
+  --every=N                 lockstep: compare every Nth window (5)
+  --truth=FILE              ground truth, for the errors of the free runs
   --noreport                draw no figures
   --overwrite               replace an earlier result
   --quiet                   print warnings and errors only

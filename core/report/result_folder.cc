@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/result_folder.h"
 
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "core/io/errors.h"
@@ -8,6 +10,20 @@
 namespace trajlo {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// A summary of a run that was killed, or that still goes on.
+bool IsUnfinished(const fs::path& file) {
+  std::error_code error;
+  if (file.filename() != "run.json" || !fs::is_regular_file(file, error)) return false;
+  std::ifstream stream(file);
+  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  if (!json.is_object() || !json.contains("exit") || !json["exit"].is_object()) return false;
+  return json["exit"].value("reason", nlohmann::json()) == "running";
+}
+
+}  // namespace
 
 void CheckResultFolder(const fs::path& folder, const std::vector<fs::path>& files, bool overwrite) {
   std::error_code error;
@@ -18,7 +34,9 @@ void CheckResultFolder(const fs::path& folder, const std::vector<fs::path>& file
   if (overwrite) return;
   for (const fs::path& file : files) {
     if (fs::exists(fs::symlink_status(file, error))) {
-      throw OutputError(folder, "holds an earlier result (" + file.filename().string() +
+      const char* what =
+          IsUnfinished(file) ? "holds a result that did not finish (" : "holds an earlier result (";
+      throw OutputError(folder, what + file.filename().string() +
                                     "); choose another --output, or add --overwrite to replace it");
     }
   }

@@ -68,10 +68,13 @@ std::string SummaryTable(const RunSummary& s) {
                                s.windows.Mean(s.windows.rounds)));
   const std::string flagged = Flagged(s.flags);
   if (!flagged.empty()) table += Line("flagged", flagged);
-  table +=
-      Line("speed", FormatText("%.1f x real time; per second of data: median %.0f ms, 95 %% within "
-                               "%.0f ms",
-                               s.RealTimeFactor(), s.median_ms, s.p95_ms));
+  std::string speed = FormatText("%.1f x real time", s.RealTimeFactor());
+  // Nothing where there is too little data to tell.
+  if (s.median_ms > 0.0) {
+    speed += FormatText("; per second of data: median %.0f ms, 95 %% within %.0f ms", s.median_ms,
+                        s.p95_ms);
+  }
+  table += Line("speed", speed);
   const std::string stages = Stages(s.windows);
   if (!stages.empty()) table += Line("", stages);
   table += Line("memory", FormatText("%.0f MB at most; %zu points in the map", s.peak_memory_mb,

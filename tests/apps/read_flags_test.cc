@@ -89,6 +89,13 @@ TEST_F(ReadFlagsTest, UnknownFlagsComeWithTheNearest) {
   EXPECT_EQ(Error({"--Output", "x"}), "unknown flag --Output; did you mean --output?");
   EXPECT_EQ(Error({"--vresion"}), "unknown flag --vresion; did you mean --version?");
   EXPECT_EQ(Error({"--xyzzyplugh"}), "unknown flag --xyzzyplugh");
+  EXPECT_EQ(Error({"--no-view"}), "unknown flag --no-view; did you mean --noview?");
+  EXPECT_EQ(Error({"--noview=true"}),
+            "unknown flag --noview with a value; --view=false, or --noview alone");
+  EXPECT_EQ(Error({"-q"}), "unknown flag -q; did you mean --quiet?");
+  EXPECT_EQ(Error({"-v"}), "unknown flag -v; did you mean --version?");
+  EXPECT_EQ(Error({"-V"}), "unknown flag -V; did you mean --version?");
+  EXPECT_EQ(Error({"-z"}), "unknown flag -z");
   EXPECT_EQ(Error({"--minloglevel=2"}), "unknown flag --minloglevel");
   EXPECT_EQ(Error({"--window.segments=3"}),
             "unknown flag --window.segments; options are set with --set window.segments=3");

@@ -278,6 +278,32 @@ TEST_F(TrajloRunTest, AFullDiskIsFiveWhicheverFileMeetsIt) {
   }
 }
 
+TEST_F(TrajloRunTest, AKilledRunIsSaidToBeUnfinished) {
+  RoomRecording().Write(input());
+  fs::create_directories(output());
+  WriteFile(Result("run.json"), R"({"exit": {"code": null, "reason": "running"}})");
+  const Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_THAT(outcome.err, HasSubstr("holds a result that did not finish (run.json)"));
+  WriteFile(Result("run.json"), R"({"exit": {"code": 0, "reason": "ok"}})");
+  EXPECT_THAT(Run().err, HasSubstr("holds an earlier result (run.json)"));
+}
+
+TEST_F(TrajloRunTest, AClosedPipeEndsAListSilently) {
+  const std::string err = (temp_ / "err").string();
+  const std::string command = std::string("bash -c 'set -o pipefail; ") + TRAJLO_RUN +
+                              " --show_config 2>" + err + " | head -1 >/dev/null'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(ReadFile(err), "");
+}
+
+TEST_F(TrajloRunTest, LessDataThanTellsOfASecondHasNoMedian) {
+  RoomRecording room;
+  room.scans = 4;
+  room.Write(input());
+  EXPECT_THAT(Run().out, AllOf(HasSubstr("x real time"), Not(HasSubstr("median"))));
+}
+
 TEST_F(TrajloRunTest, APipeThatNobodyReadsIsFiveAndDoesNotHang) {
   RoomRecording().Write(input());
   fs::create_directories(output());
