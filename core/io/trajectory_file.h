@@ -14,9 +14,8 @@
 namespace trajlo {
 
 /// How the poses of a file are written.
-///   kTum    "stamp x y z qx qy qz qw", seconds, blanks or tabs between the columns; or "stamp x y
-///   z"
-///           in all lines, which have no rotation
+///   kTum    "stamp x y z qx qy qz qw", seconds, blanks or tabs between the columns; or in
+///           all lines "stamp x y z", without rotation
 ///   kKitti  the upper 3x4 of the pose, row by row, no stamps
 ///   kEuroc  csv of "stamp, x, y, z, qw, qx, qy, qz", whole nanoseconds, more columns are ignored
 enum class TrajectoryFormat { kAuto, kTum, kKitti, kEuroc };

@@ -26,13 +26,6 @@ std::size_t CountWords(std::string_view line) {
   return words;
 }
 
-/// True if the line has a stamp, and too few numbers.
-bool IsBeginOfLine(std::string_view line, std::size_t columns) {
-  if (CountWords(line) >= columns) return false;
-  double stamp = 0.0;
-  return ParseNumber(TakeWord(&line), &stamp);
-}
-
 /// `columns` is 8, or 4 without rotations.
 LineKind ParseLine(std::string_view line, std::size_t columns, StampedPose* pose) {
   if (CountWords(line) != columns) return LineKind::kMalformed;
@@ -92,7 +85,7 @@ std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string
       position_lines.push_back(lines.number());
     } else if (kind == LineKind::kUnusable) {
       warn(lines.number(), "is skipped: a number is not finite");
-    } else if (may_be_cut || (lines.at_end() && IsBeginOfLine(line, columns))) {
+    } else if (may_be_cut) {
       warn(lines.number(), "is skipped: it is incomplete, as after an interrupted recording");
     } else {
       throw InputError(

@@ -20,10 +20,10 @@ struct StampedPose {
 /// Reads a trajectory in TUM's format, poses in the order of the file, quaternions normalised.
 /// Blank lines and lines that begin with # are skipped; columns are separated by blanks or tabs.
 /// Skipped with a warning: lines with a number that is not finite or a quaternion that is zero,
-/// and an incomplete last line (an interrupted recording). Where every quaternion is zero, or the
-/// first line is `stamp x y z`, as in the truth of a total station, the poses have the identity for
-/// a rotation. Everything else that is not eight (four) numbers throws InputError with the line's
-/// number.
+/// and an incomplete last line without a line end (an interrupted recording). Where every
+/// quaternion is zero, or the first line is `stamp x y z`, as in the truth of a total station, the
+/// poses have the identity for a rotation. Everything else that is not eight (four) numbers throws
+/// InputError with the line's number.
 std::vector<StampedPose> ReadTum(const std::filesystem::path& path,
                                  std::vector<std::string>* warnings = nullptr);
 

@@ -131,7 +131,7 @@ class DressRehearsal(FolderTest):
                          {"indoor_swing": "no truth", "outdoor_spin": "no truth"})
         for row in self.rows:
             self.assertLess(float(row["distance_to_start_m"]), 3)
-            value = f"{float(row['distance_to_start_m']):.3f}"
+            value = f"{float(row['distance_to_start_m']):.4f}"
             # Below the little picture, and in the table; not the page of it all in the message.
             self.assertTrue(re.search(rf"trajlo:\s+{re.escape(value)}", self.page), value)
 
