@@ -8,16 +8,21 @@
 #include <algorithm>
 
 namespace trajlo {
+namespace {
+
+int Concurrency(int threads) {
+  const int cores = tbb::info::default_concurrency();
+  return threads > 0 ? std::min(threads, cores) : cores;
+}
+
+}  // namespace
 
 struct ThreadPool::Arena : tbb::task_arena {
   using tbb::task_arena::task_arena;
 };
 
 ThreadPool::ThreadPool(int threads)
-    : arena_(std::make_unique<Arena>(threads > 0
-                                         ? std::min(threads, tbb::info::default_concurrency())
-                                         : tbb::task_arena::automatic)),
-      threads_(arena_->max_concurrency()) {}
+    : arena_(std::make_unique<Arena>(Concurrency(threads))), threads_(arena_->max_concurrency()) {}
 ThreadPool::~ThreadPool() = default;
 
 void ThreadPool::ParallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
