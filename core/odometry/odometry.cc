@@ -131,8 +131,7 @@ void Odometry::FindFirstVelocity(const SegmentCloud& cloud) {
 void Odometry::Step(SegmentCloud cloud) {
   PushSegment(std::move(cloud), options_.window.deskewing, &window_);
   motion_prior_.Apply(&window_);
-  const bool is_new = window_.size() == 1;
-  if (is_new) window_.noise = MakeRegistrationNoise(options_.registration);
+  if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
   const std::vector<SE3> predicted = window_.Poses();
 
   WindowStatistics statistics;

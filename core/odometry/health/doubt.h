@@ -28,7 +28,7 @@ class DoubtWatch {
 
  private:
   bool MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const;
-  /// So large a share of all points is on the map, and of the usual agreement there is so much.
+  /// At least these shares, of all points on the map and of the usual agreement.
   bool Agrees(const Window& window, const Segment& segment, double on_map, double of_usual) const;
 
   unsigned flags_ = 0;

@@ -78,7 +78,7 @@ struct WindowStatistics {
   /// Unlike has_converged, this does not depend on the tolerance and the rounds of the options.
   bool IsRestless() const { return restless_rounds >= kRoundsToSettle; }
   double InlierShare() const { return points > 0 ? static_cast<double>(inliers) / points : 0.0; }
-  /// So few points have a plane at no place that is in the map.
+  /// Fewer points than at any place that is in the map have a plane.
   bool HasFewInliers() const { return InlierShare() < 0.3; }
 };
 

@@ -2,6 +2,10 @@
 #include "core/odometry/map/map_level.h"
 
 namespace trajlo {
+
+static_assert(VoxelHashMap::kPointsOfSite == PlaneFitOptions::kMinNeighbors,
+              "a site is where there can be a plane");
+
 MapLevel::MapLevel(const MapOptions& options, const PlaneFitOptions& plane)
     : plane_(plane),
       cell_size_(0.5 * options.voxel_size_m),

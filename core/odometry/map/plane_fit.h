@@ -12,7 +12,7 @@ namespace trajlo {
 /// neighbours along their principal axes:
 struct PlaneFitOptions {
   int neighbors = 8;
-  static constexpr int kMinNeighbors = 5;  ///< VoxelHashMap::kPointsOfSite.
+  static constexpr int kMinNeighbors = 5;
   double min_width_in_spacings = 0.53;
   /// Upper bound of l0 / l1.
   static constexpr double kMaxFlatness = 0.5;

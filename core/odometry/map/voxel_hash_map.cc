@@ -31,8 +31,9 @@ VoxelHashMap::VoxelHashMap(double voxel_size_m, double min_point_spacing_m, doub
 std::uint32_t VoxelHashMap::NewBlock(const VoxelKey& key) {
   auto block = static_cast<std::uint32_t>(blocks_.size());
   if (free_blocks_.empty()) {
-    if (block == kNoNext)
+    if (block == kNoNext) {
       throw std::length_error("the map holds more than 16 million blocks of four points");
+    }
     blocks_.emplace_back();
   } else {
     block = free_blocks_.back();
