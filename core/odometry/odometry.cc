@@ -180,13 +180,12 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
 
 /// Judges the window by those before it as well.
 void Odometry::Watch(WindowStatistics* statistics) {
-  if (inlier_watch_.HasFew(*statistics)) {
-    statistics->flags |= kFlagFewInliers;
-    // That takes time to show: it holds for all poses that are still here.
-    if (first_pose_) first_pose_->flags |= kFlagFewInliers;
-    window_.begin_flags |= kFlagFewInliers;
-    for (Segment& segment : window_.segments) segment.flags |= kFlagFewInliers;
-  }
+  if (inlier_watch_.HasFew(*statistics)) statistics->flags |= kFlagFewInliers;
+  // These take time to show: they hold for all poses that are still here.
+  const unsigned late = statistics->flags & (kFlagFewInliers | kFlagJump);
+  if (first_pose_) first_pose_->flags |= late;
+  window_.begin_flags |= late;
+  for (Segment& segment : window_.segments) segment.flags |= late;
   doubt_.Update(window_, *statistics, motion_prior_.density());
   statistics->flags |= doubt_.flags();
   window_.segments.back().flags = statistics->flags;

@@ -31,7 +31,7 @@ std::string FlagNames(unsigned flags) {
       {kFlagNoPoints, "no_points"},     {kFlagGap, "gap"},
       {kFlagReverted, "reverted"},      {kFlagNotConverged, "not_converged"},
       {kFlagDegenerate, "degenerate"},  {kFlagLost, "lost"},
-      {kFlagFewInliers, "few_inliers"},
+      {kFlagFewInliers, "few_inliers"}, {kFlagJump, "jump"},
   };
   std::string text;
   for (const auto& [flag, name] : names) {

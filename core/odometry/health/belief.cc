@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/belief.h"
 
+#include <algorithm>
+
 #include "core/odometry/health/agreement.h"
 #include "core/odometry/health/condition.h"
 #include "core/odometry/health/support.h"
@@ -14,6 +16,9 @@ constexpr double kMaxCorrection_m = 3.0;
 constexpr double kMaxCorrection_rad = 1.0;
 constexpr double kMaxSpeed_m_s = 100.0;
 constexpr double kMaxTurnRate_rad_s = 60.0;
+/// Nor this. What is measured as a change of velocity is also the error of two velocities: wherever
+/// the scene is followed, it moves no pose by more than half of kOnPlane_m.
+constexpr double kMaxAcceleration_m_s2 = 100.0;
 /// A direction counts as degenerate if the points of a window hold it to a larger standard
 /// deviation than this; in a well-spread scene it is 0.01 m.
 constexpr double kDegenerate_m = 0.1;
@@ -27,6 +32,12 @@ bool IsBelievable(const WindowStatistics& statistics, const Window& window) {
   }
   return statistics.is_finite && statistics.correction.translation_m <= kMaxCorrection_m &&
          statistics.correction.rotation_rad <= kMaxCorrection_rad;
+}
+
+bool HasJumped(const WindowStatistics& statistics, const Window& window) {
+  const double duration_s = window.segments.back().Duration_s();
+  return statistics.correction.translation_m >
+         std::max(kOnPlane_m, kMaxAcceleration_m_s2 * duration_s * duration_s);
 }
 
 bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s) {
@@ -49,6 +60,7 @@ void Judge(double points_per_error, Window* window, WindowStatistics* statistics
   } else if (!statistics->has_converged) {
     statistics->flags |= kFlagNotConverged;
   }
+  if (window->is_believed && HasJumped(*statistics, *window)) statistics->flags |= kFlagJump;
   if (IsUnsupported(*window, newest)) statistics->flags |= kFlagNoPoints;
   statistics->agreement = AgreementOf(*window, newest).worst;
   const WindowCondition condition = ConditionOf(*window, points_per_error);

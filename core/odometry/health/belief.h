@@ -10,6 +10,10 @@ namespace trajlo {
 /// 1 rad, and no pose farther from its neighbours than 100 m/s and 60 rad/s get it.
 bool IsBelievable(const WindowStatistics& statistics, const Window& window);
 
+/// Whether the points moved the newest pose from its prediction by more than 0.2 m, and than 10 g
+/// move a body within its segment. Either this pose is wrong or those before it were.
+bool HasJumped(const WindowStatistics& statistics, const Window& window);
+
 /// Whether that speed and turn rate get a body from one pose to another in `duration_s`.
 bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s);
 

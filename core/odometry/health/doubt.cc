@@ -17,6 +17,8 @@ constexpr double kToTrust = 0.75;
 constexpr double kAsUsual = 0.95;
 /// With less, they contradict the map: a car at 30 m/s has 0.9 or more, a slide of 6 m at most 0.8.
 constexpr double kNoContradiction = 0.85;
+/// Usual until more is known: the median at the right place is above 0.85 (InlierWatch).
+constexpr double kAgreementAtFirst = 0.9;
 /// The usual is a mean over about so many windows.
 constexpr double kWindows = 20.0;
 /// What three standard deviations of an unseen motion may be without a doubt: points are still near
@@ -37,7 +39,9 @@ bool IsBehindPause(const Window& window) {
 
 void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics,
                         const Vector6d& density) {
-  unsigned unheld = statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate);
+  const bool has_jumped = (statistics.flags & kFlagJump) != 0;
+  unsigned unheld =
+      statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate | kFlagJump);
   // At the right place behind a pause, a window settles.
   if (statistics.IsRestless() && IsBehindPause(window) && MayHaveMoved(window.EndNs(), density)) {
     unheld |= kFlagGap;
@@ -46,12 +50,12 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
   const bool began = held_until_ns_ || (unheld & ~kFlagDegenerate) != 0;
   if (unheld == 0 || !began) held_until_ns_ = window.EndNs();
   if (unheld != 0) {
-    if (flags_ != 0 || MayHaveMoved(window.EndNs(), density)) {
+    if (flags_ != 0 || has_jumped || MayHaveMoved(window.EndNs(), density)) {
       flags_ = unheld;
       causes_ |= unheld;
     }
   } else if (flags_ == 0) {
-    const double usual = usual_agreement_.value_or(1.0);
+    const double usual = usual_agreement_.value_or(kAgreementAtFirst);
     usual_agreement_ = usual + (statistics.agreement - usual) / kWindows;
   } else if (statistics.has_converged && std::all_of(window.segments.begin(), window.segments.end(),
                                                      [&](const Segment& segment) {
@@ -71,9 +75,9 @@ bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const 
 bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
   // A body that was never trusted has little of a map that could be spoilt.
   if (causes_ == 0 || !usual_agreement_) return true;
-  // One that slid along a direction which its points left open sees what is new to the map. But
-  // what the map has must not be contradicted.
-  const bool has_slid = causes_ == kFlagDegenerate;
+  // One that slid along a direction which its points left open, or jumped, sees what is new to the
+  // map. But what the map has must not be contradicted.
+  const bool has_slid = (causes_ & ~(kFlagDegenerate | kFlagJump)) == 0;
   return has_slid ? Agrees(window, segment, 0.0, kNoContradiction)
                   : Agrees(window, segment, kToExtendMap, kAsUsual);
 }
@@ -81,7 +85,7 @@ bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const
 bool DoubtWatch::Agrees(const Window& window, const Segment& segment, double on_map,
                         double of_usual) const {
   const MapAgreement agreement = AgreementOf(window, segment);
-  return agreement.on_map >= on_map && agreement.worst >= of_usual * usual_agreement_.value_or(1.0);
+  return agreement.on_map >= on_map && agreement.worst >= of_usual * usual_agreement_.value_or(kAgreementAtFirst);
 }
 
 }  // namespace trajlo

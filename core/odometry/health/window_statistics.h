@@ -19,11 +19,12 @@ enum WindowFlag : unsigned {
   kFlagDegenerate = 1u << 4,    ///< A direction is held by the motion prior alone.
   kFlagLost = 1u << 5,          ///< The scene is no longer followed: see LossWatch.
   kFlagFewInliers = 1u << 6,    ///< Too few points agree with the map: InlierWatch.
+  kFlagJump = 1u << 7,          ///< A pose jumped as no body does: HasJumped.
 };
 
 constexpr unsigned kAllFlags[] = {
     kFlagNoPoints,   kFlagGap,  kFlagReverted,   kFlagNotConverged,
-    kFlagDegenerate, kFlagLost, kFlagFewInliers,
+    kFlagDegenerate, kFlagLost, kFlagFewInliers, kFlagJump,
 };
 
 /// A window that moves by more than this in a round has not settled, whatever tolerance the options

@@ -212,6 +212,23 @@ TEST(DoubtWatch, AnOpenDirectionAloneDoesNotKeepTheMapFromGrowing) {
   EXPECT_TRUE(body.MayEnterMap(kNewPart)) << "that was another doubt";
 }
 
+TEST(DoubtWatch, AJumpBeginsItAtOnce) {
+  Watched body(1e-6, 1e-6);
+  for (int i = 0; i < 200; ++i) body.Add(0);
+  EXPECT_EQ(body.Add(kFlagJump, kWrongWall), +kFlagJump);
+  EXPECT_FALSE(body.MayEnterMap(kWrongWall));
+  EXPECT_TRUE(body.MayEnterMap(kNewPart));
+  EXPECT_EQ(body.Add(0, kWrongWall), +kFlagJump);
+  EXPECT_EQ(body.Add(0), 0U);
+}
+
+TEST(DoubtWatch, ABodyThatNeverAgreedIsMeasuredByWhatIsUsualElsewhere) {
+  Watched body;
+  body.Add(kFlagJump);
+  EXPECT_NE(body.Add(0, kWrongWall), 0U);
+  EXPECT_EQ(body.Add(0, Seen{500, 490, 100, 80, 0}), 0U);
+}
+
 TEST(DoubtWatch, InDoubtOnlyWhatAgreesEntersTheMap) {
   Watched body = InDoubt();
   EXPECT_TRUE(body.MayEnterMap({}));
