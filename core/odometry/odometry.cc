@@ -7,7 +7,6 @@
 
 #include "core/odometry/health/belief.h"
 #include "core/odometry/parallel/side_task.h"
-#include "core/odometry/segments/join_segments.h"
 #include "core/odometry/stopwatch.h"
 #include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
@@ -19,8 +18,6 @@
 namespace trajlo {
 namespace {
 
-/// Fewer points make no map: the recording begins again with what comes next.
-constexpr std::size_t kFewestToBegin = 20;
 /// The window keeps so few segments where fewer of the newest points than this share have a plane.
 constexpr int kShortWindow = 2;
 constexpr double kSeesMap = 0.5;
@@ -40,17 +37,17 @@ void Odometry::AddScan(const LidarScan& scan) { segments_.Add(scan); }
 
 void Odometry::Finish() {
   segments_.Finish();
-  if (!started_) return;
+  if (beginning_) Start();
   if (search_ && search_->HasPoints()) Search(true);
+  if (beginning_) Start();
   SettleWindow(std::numeric_limits<std::int64_t>::max());
 }
 
 void Odometry::Take(SegmentCloud cloud) {
-  if (!started_) {
-    Start(cloud);
+  if (beginning_) {
+    TakeFirst(std::move(cloud));
     return;
   }
-  if (first_scan_) FindFirstVelocity(cloud);
   if (cloud.is_gap && !support_.was_supported() && !search_) {
     if (!trajectory_.empty()) {
       SettleWindow(cloud.end_ns);
@@ -67,64 +64,6 @@ void Odometry::Take(SegmentCloud cloud) {
   }
   search_->Add(std::move(cloud));
   if (search_->IsDue()) Search(false);
-}
-
-/// The first interval: its motion, then its points into the map.
-void Odometry::Start(const SegmentCloud& cloud) {
-  started_ = true;
-  const double duration_s = cloud.Duration_s();
-  Vector6d tau = Vector6d::Zero();
-  if (duration_s > 0.0) {
-    tau = MotionOfFirstInterval(cloud, options_.initialization, options_.map, options_.registration,
-                                &threads_);
-  }
-  BeginMap(cloud, SE3(), tau, 0);
-}
-
-/// What was seen once, before a gap, tells neither where the body is behind it nor how it moved:
-/// the recording begins behind the gap.
-void Odometry::Forget(std::int64_t until_ns) {
-  map_ = MapPyramid(options_.map);
-  first_pose_.reset();
-  window_ = MakeWindow(until_ns, SE3());
-}
-
-/// Whether there is something that points can agree with.
-bool Odometry::HasMap() const {
-  return support_.was_supported() || map_.finest().size() >= kFewestToBegin;
-}
-
-/// A map of one interval alone, and a window that begins where it ends.
-void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau,
-                        unsigned flags) {
-  const double duration_s = cloud.Duration_s();
-  const SE3 T_end = T_begin * se3::Exp(tau);
-  EnterMap(cloud, T_begin, T_end, &threads_, &map_);
-  const ControlPose first = {cloud.begin_ns, T_begin, flags};
-  if (duration_s > 0.0 && trajectory_.empty() && HasMap()) {
-    first_pose_ = first;
-  } else if (duration_s > 0.0) {
-    Settle(first, Matrix6d::Zero());
-  }
-  window_ = MakeWindow(cloud.end_ns, T_end);
-  window_.begin_flags = flags;
-  if (duration_s > 0.0) {
-    window_.begin_velocity = tau / duration_s;
-  } else {
-    first_scan_ = cloud;
-  }
-  support_.Begin(cloud.end_ns);
-}
-
-/// A scan of one time does not tell how it moves; two of them do.
-void Odometry::FindFirstVelocity(const SegmentCloud& cloud) {
-  const SegmentCloud first = *std::exchange(first_scan_, std::nullopt);
-  if (cloud.is_gap) return;
-  const SegmentCloud both = JoinSegments({first, cloud});
-  const double duration_s = both.Duration_s();
-  window_.begin_velocity = MotionOfFirstInterval(both, options_.initialization, options_.map,
-                                                 options_.registration, &threads_) /
-                           duration_s;
 }
 
 /// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.

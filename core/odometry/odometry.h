@@ -15,6 +15,7 @@
 #include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_stream.h"
 #include "core/odometry/solvers/window_solver.h"
+#include "core/odometry/start/beginning.h"
 #include "core/odometry/start/return_search.h"
 #include "core/odometry/trajectory/trajectory.h"
 #include "core/odometry/window/window.h"
@@ -72,10 +73,12 @@ class Odometry {
   std::optional<std::int64_t> lost_at_ns() const { return lost_at_ns_; }
 
  private:
-  void Start(const SegmentCloud& cloud);
+  void Begin(Beginning beginning);
+  void TakeFirst(SegmentCloud cloud);
+  void Start();
+  void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& velocity,
+                unsigned flags);
   void Forget(std::int64_t until_ns);
-  void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& tau, unsigned flags);
-  void FindFirstVelocity(const SegmentCloud& cloud);
   void Take(SegmentCloud cloud);
   void Step(SegmentCloud cloud);
   void BeginSearch();
@@ -115,9 +118,8 @@ class Odometry {
   std::function<void(const WindowStatistics&)> on_window_;
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;
-  std::optional<SegmentCloud> first_scan_;  ///< Of a map that begins with one time.
-  std::optional<ControlPose> first_pose_;   ///< Until the next one is final.
-  bool started_ = false;
+  std::optional<Beginning> beginning_ = Beginning{};  ///< Until a map begins.
+  std::optional<ControlPose> first_pose_;             ///< Until the next one is final.
   std::int64_t windows_ = 0;
 };
 

@@ -70,8 +70,7 @@ void Odometry::Search(bool is_last) {
 void Odometry::BeginAgain(const ReturnSweep& sweep) {
   SettleWindow(sweep.cloud.begin_ns);
   const unsigned flags = trajectory_.empty() ? 0U : kFlagGap;
-  BeginMap(sweep.cloud, window_.T_world_begin, sweep.tau, flags);
-  search_.reset();
+  Begin({search_->TakeSegments(), window_.T_world_begin, flags});
 }
 
 /// The place is found: a new window begins there, and takes what has come since.
@@ -103,8 +102,8 @@ void Odometry::GetLost(const ReturnSweep& sweep) {
   if (!lost_at_ns_) lost_at_ns_ = support_.supported_until_ns() + 1;
   SettleWindow(sweep.cloud.begin_ns);
   map_ = MapPyramid(options_.map);
-  BeginMap(sweep.cloud, search_->Predict(sweep.cloud.begin_ns), sweep.tau, kFlagGap | kFlagLost);
-  search_.reset();
+  const SE3 T_begin = search_->Predict(sweep.cloud.begin_ns);
+  Begin({search_->TakeSegments(), T_begin, kFlagGap | kFlagLost});
 }
 
 }  // namespace trajlo

@@ -4,6 +4,7 @@
 namespace trajlo {
 
 SegmentCloud JoinSegments(const std::vector<SegmentCloud>& segments) {
+  if (segments.size() == 1) return segments.front();
   SegmentCloud joined;
   joined.begin_ns = segments.front().begin_ns;
   joined.end_ns = segments.back().end_ns;

@@ -99,7 +99,7 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
 
   if (!end_ns_) {
     end_ns_ = first_ns;
-    OpenNext(first_ns + DurationNs(options_.first_interval_s));
+    OpenNext(first_ns + interval_ns_);
   }
   if (first_ns > *end_ns_ + max_gap_ns_) {
     OpenNext(first_ns, true);
@@ -202,38 +202,20 @@ std::optional<SegmentCloud> Segmenter::Next() {
   cloud.begin_ns = slot.begin_ns;
   cloud.end_ns = slot.end_ns;
   cloud.is_gap = slot.is_gap;
-  // The first segment is longer than the others.
-  if (first_taken_) usual_points_ = slot.points.size() + slot.points.size() / 8;
+  usual_points_ = slot.points.size() + slot.points.size() / 8;
   for (std::size_t lidar = 0; lidar < newest_ns_.size(); ++lidar) {
     cloud.lidar_origins_body_m.push_back(PoseOf(lidar).t);
   }
-  Thin(std::move(slot.points), &cloud);
+  Thin(slot.points, &cloud);
   return cloud;
 }
 
-void Segmenter::Thin(std::vector<SegmentPoint> points, SegmentCloud* cloud) {
-  if (first_taken_) {
-    map_filter_.Filter(points, &cloud->map_points);
-    registration_filter_.Filter(cloud->map_points, &cloud->registration_points);
-    if (options_.max_registration_points > 0) {
-      cloud->registration_points = ChooseEvenly(
-          cloud->registration_points, static_cast<std::size_t>(options_.max_registration_points));
-    }
-    return;
-  }
-  // The start of motion is found by comparing the two halves of the first segment: each must keep
-  // its own points where the other has some, too.
-  first_taken_ = true;
-  const auto middle = std::stable_partition(
-      points.begin(), points.end(), [](const SegmentPoint& point) { return point.alpha < 0.5F; });
-  std::vector<SegmentPoint> kept;
-  for (const auto& half : {std::vector<SegmentPoint>(points.begin(), middle),
-                           std::vector<SegmentPoint>(middle, points.end())}) {
-    map_filter_.Filter(half, &kept);
-    cloud->map_points.insert(cloud->map_points.end(), kept.begin(), kept.end());
-    const std::vector<SegmentPoint> fine = kept;
-    registration_filter_.Filter(fine, &kept);
-    cloud->registration_points.insert(cloud->registration_points.end(), kept.begin(), kept.end());
+void Segmenter::Thin(const std::vector<SegmentPoint>& points, SegmentCloud* cloud) {
+  map_filter_.Filter(points, &cloud->map_points);
+  registration_filter_.Filter(cloud->map_points, &cloud->registration_points);
+  if (options_.max_registration_points > 0) {
+    cloud->registration_points = ChooseEvenly(
+        cloud->registration_points, static_cast<std::size_t>(options_.max_registration_points));
   }
 }
 

@@ -14,7 +14,6 @@
 namespace trajlo {
 
 struct SegmenterOptions {
-  double first_interval_s = 0.3;
   double interval_s = 0.03;
   double min_range_m = 0.5;
   double max_range_m = 150.0;
@@ -41,8 +40,6 @@ struct SegmenterOptions {
 
   template <typename Describer>
   void Describe(Describer& d) {
-    d(OptionFor::kExperts, "first_interval_s", first_interval_s, Range<double>{1e-3, 10.0},
-      "Length of the first segment, which fills the map (paper: 0.3 s).");
     d(OptionFor::kUsers, "interval_s", interval_s, Range<double>{1e-3, 10.0},
       "Length of a segment, the paper's Delta t.");
     d(OptionFor::kExperts, "map_voxel_m", map_voxel_m, Range<double>{1e-3, 10.0},
@@ -60,8 +57,7 @@ struct SegmenterOptions {
 
 /// Cuts the stream of scans into segments, whatever the length of a scan.
 ///
-/// Segment 0 starts at the first point and lasts `first_interval_s`; the others follow without
-/// holes. A segment is handed out when every LiDAR has passed its end, but for one that is silent
+/// Segment 0 starts at the first point; the others follow without holes. A segment is handed out when every LiDAR has passed its end, but for one that is silent
 /// or late. Where no scan has point times (motion-corrected ones) each becomes a segment, from the
 /// previous stamp to its own, with alpha = 1 for every point: the discrete mode of the paper. The
 /// first of these is an instant, which only fills the map. After a gap, such a segment is as long
@@ -98,14 +94,13 @@ class Segmenter {
   void OpenNext(std::int64_t end_ns, bool is_gap = false);
   void CompleteUntil(std::int64_t t_ns);
   std::int64_t FirstOpen_ns() const;
-  void Thin(std::vector<SegmentPoint> points, SegmentCloud* cloud);
+  void Thin(const std::vector<SegmentPoint>& points, SegmentCloud* cloud);
 
   SegmenterOptions options_;
   std::int64_t interval_ns_, max_gap_ns_, max_lag_ns_;
   PointCounts counts_;
   VoxelFilter map_filter_;
   VoxelFilter registration_filter_;
-  bool first_taken_ = false;
   std::size_t usual_points_ = 0;  ///< What a segment holds, and a little more.
   std::deque<Slot> slots_;        ///< Not yet handed out, without holes.
   std::int64_t complete_until_ns_;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/odometry/segments/voxel_filter.h"
 #include "core/odometry/window/association.h"
 #include "core/scans/median.h"
 #include "factors/plane_distances.h"
@@ -22,6 +23,9 @@ constexpr int kRounds = 20;
 /// From here on steps are halved: the choice of neighbours makes the last centimetre flip to and
 /// fro.
 constexpr int kDampedFrom = 8;
+/// The second half has one point in a cell of this size, and no fewer: few may face a direction
+/// that is held weakly.
+constexpr double kSpacing_m = 0.4;
 /// A point this near to its plane speaks for a hypothesis.
 constexpr double kAgreementM = 0.05;
 /// A start faster than this is not expected; it only holds directions that nobody measures.
@@ -35,9 +39,16 @@ constexpr double kMinGain = 1.15;
 /// that face the direction which is held weakly.
 constexpr double kClearMotion_m = 0.3;
 
+/// A motion that is shorter over the first interval blurs nothing.
+constexpr double kAtRest_m = 0.1;
+constexpr double kAtRest_rad = 0.03;
+/// Of the points that have a plane, so many are on it where a constant twist explains the interval.
+/// At rest and in steady motion it is 0.76 to 0.9; in a flight with quick turns 0.1 to 0.6, and in
+/// a wood, where leaves make the planes, 0.3.
+constexpr double kSteady = 0.7;
+
 /// A search that comes back to rest has found it, if so many of the points with planes that face
 /// the weak direction say so: nine of ten at rest, and a quarter of those of a road at 30 m/s.
-constexpr double kAtRest_m = 0.1;
 constexpr double kSayingSo = 0.5;
 /// A direction with less than this share of the information is held weakly.
 constexpr double kWeakShare = 0.02;
@@ -86,6 +97,12 @@ class Hypothesis {
     return agreeing / points_;
   }
 
+  /// The same, as a share of the points that have a plane.
+  double AgreementWithPlanes() const {
+    const auto with_plane = static_cast<double>(points_with_plane_.size());
+    return with_plane > 0.0 ? Agreement() * points_ / with_plane : 0.0;
+  }
+
   /// Share of the second half's points that have a plane which faces `direction`, near or far.
   double Facing(const Eigen::Vector3d& direction) const {
     return static_cast<double>(std::count_if(
@@ -111,14 +128,20 @@ class FirstInterval {
                 const RegistrationOptions& registration, ThreadPool* threads)
       : cloud_(cloud), map_options_(map_options), registration_(registration), threads_(threads) {
     map_options_.finest.kind = MapKind::kVoxelHash;
-    for (const SegmentPoint& point : cloud.registration_points) {
-      if (point.alpha >= 0.5F) second_half_.push_back(point);
+    std::vector<SegmentPoint> all;
+    for (const SegmentPoint& point : cloud.map_points) {
+      if (point.alpha >= 0.5F) all.push_back(point);
     }
+    VoxelFilter(kSpacing_m).Filter(all, &second_half_);
   }
 
   bool is_empty() const { return second_half_.empty(); }
   /// Points of the second half.
   double size() const { return static_cast<double>(second_half_.size()); }
+
+  Hypothesis At(const Vector6d& tau) const {
+    return Hypothesis(cloud_, second_half_, tau, map_options_, threads_);
+  }
 
   double Agreement(const Vector6d& tau,
                    const std::optional<Eigen::Vector3d>& direction = std::nullopt) const {
@@ -160,10 +183,6 @@ class FirstInterval {
   }
 
  private:
-  Hypothesis At(const Vector6d& tau) const {
-    return Hypothesis(cloud_, second_half_, tau, map_options_, threads_);
-  }
-
   RegistrationNormalEquations Linearize(const Vector6d& tau, double coarse) const {
     MapPyramidOptions map = map_options_;
     map.finest.voxel_size_m *= coarse;
@@ -213,29 +232,34 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
   const FirstInterval interval(cloud, map_options, registration, threads);
   if (interval.is_empty()) return motion;
   motion.tau = interval.Refine(Vector6d::Zero(), 0, kRounds);
-  motion.agreement = interval.Agreement(motion.tau);
   motion.agreement_at_rest = interval.Agreement(Vector6d::Zero());
   const auto direction = interval.WeakDirection(motion.tau);
-  if (!direction) return motion;
   const bool is_at_rest = motion.tau.head<3>().norm() < kAtRest_m;
-  if (is_at_rest && interval.IsShownAlong(*direction, motion.tau)) return motion;
-  motion.tau = SearchAlong(*direction, interval, motion.tau);
-  motion.agreement = interval.Agreement(motion.tau);
-  motion.facing_agreement = interval.Agreement(motion.tau, direction);
-  motion.facing_agreement_at_rest = interval.Agreement(Vector6d::Zero(), direction);
+  if (direction && !(is_at_rest && interval.IsShownAlong(*direction, motion.tau))) {
+    motion.tau = SearchAlong(*direction, interval, motion.tau);
+    motion.facing_agreement = interval.Agreement(motion.tau, direction);
+    motion.facing_agreement_at_rest = interval.Agreement(Vector6d::Zero(), direction);
+  }
+  const Hypothesis found = interval.At(motion.tau);
+  motion.agreement = found.Agreement();
+  motion.agreement_with_planes = found.AgreementWithPlanes();
   return motion;
 }
 
-Vector6d MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOptions& options,
-                               const MapPyramidOptions& map_options,
-                               const RegistrationOptions& registration, ThreadPool* threads) {
-  if (!options.estimate_motion) return Vector6d::Zero();
+FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOptions& options,
+                                  const MapPyramidOptions& map_options,
+                                  const RegistrationOptions& registration, ThreadPool* threads) {
+  const double duration_s = cloud.Duration_s();
+  if (!options.estimate_motion || !(duration_s > 0.0)) return {};
   const InitialMotion motion = EstimateInitialMotion(cloud, map_options, registration, threads);
-  const bool is_clear = motion.tau.head<3>().norm() > kClearMotion_m;
-  const double gain = is_clear ? 1.0 : kMinGain;
+  const double way_m = motion.tau.head<3>().norm();
+  const bool hardly_moves = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
+  const bool is_steady = hardly_moves || motion.agreement_with_planes > kSteady;
+  const double gain = way_m > kClearMotion_m ? 1.0 : kMinGain;
   const bool is_believed = motion.agreement > gain * motion.agreement_at_rest ||
                            motion.facing_agreement > gain * motion.facing_agreement_at_rest;
-  return is_believed ? motion.tau : Vector6d(Vector6d::Zero());
+  if (!is_believed) return {Vector6d::Zero(), is_steady};
+  return {motion.tau / duration_s, is_steady};
 }
 
 }  // namespace trajlo

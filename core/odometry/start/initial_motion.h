@@ -16,6 +16,8 @@ struct InitialMotion {
   /// the hypothesis that the sensor stood still.
   double agreement = 0.0;
   double agreement_at_rest = 0.0;
+  /// The same under tau, of the points that have a plane.
+  double agreement_with_planes = 0.0;
   /// The same, of planes that face the direction which is held weakly, if one is: of the others,
   /// many agree with any motion along it.
   double facing_agreement = 0.0;
@@ -32,20 +34,31 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
                                     const RegistrationOptions& registration, ThreadPool* threads);
 
 struct InitializationOptions {
+  double first_interval_s = 0.3;
   bool estimate_motion = true;
 
   template <typename Describer>
   void Describe(Describer& d) {
+    d(OptionFor::kExperts, "first_interval_s", first_interval_s, Range<double>{1e-3, 10.0},
+      "The motion at the start is estimated from so much of the recording, which also fills the "
+      "map where it moves steadily (paper: 0.3 s).");
     d(OptionFor::kExperts, "estimate_motion", estimate_motion,
       "Estimates the motion during the first interval by registering its second half to its "
       "first one; false assumes a stationary start, as the paper does.");
   }
 };
 
-/// The twist over the first interval [rho; theta] (m, rad): the estimated one if it is believed,
-/// else zero.
-Vector6d MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOptions& options,
-                               const MapPyramidOptions& map_options,
-                               const RegistrationOptions& registration, ThreadPool* threads);
+/// The motion with which a map begins.
+struct FirstMotion {
+  Vector6d velocity = Vector6d::Zero();  ///< [rho; theta] per second, body frame.
+  /// Whether it explains the whole interval: the body hardly moves, or the two halves of the
+  /// interval agree under it. Else the body accelerates or turns to and fro.
+  bool is_steady = true;
+};
+
+/// The motion over the first interval: the estimated one if it is believed, else rest.
+FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOptions& options,
+                                  const MapPyramidOptions& map_options,
+                                  const RegistrationOptions& registration, ThreadPool* threads);
 
 }  // namespace trajlo

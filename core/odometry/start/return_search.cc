@@ -43,7 +43,7 @@ void ReturnSearch::Add(SegmentCloud segment) {
   if (segment.IsInstant()) segments_.clear();
   segments_.push_back(std::move(segment));
   // Only the newest first_interval_s: over longer the motion is no constant twist.
-  const auto longest_ns = std::llround(1e9 * options_.segmenter.first_interval_s);
+  const auto longest_ns = std::llround(1e9 * options_.initialization.first_interval_s);
   while (segments_.size() > 1 &&
          (segments_.back().end_ns - segments_.front().begin_ns > longest_ns ||
           segments_.front().map_points.empty())) {
@@ -55,7 +55,7 @@ bool ReturnSearch::IsDue() const {
   if (segments_.empty()) return false;
   if (segments_.back().IsInstant()) return since_look_s_ >= kPatience * searched_s_;
   const double sweep_s = Seconds(segments_.back().end_ns - segments_.front().begin_ns);
-  const double enough_s = options_.segmenter.first_interval_s - options_.segmenter.interval_s;
+  const double enough_s = options_.initialization.first_interval_s - options_.segmenter.interval_s;
   return sweep_s >= enough_s && since_look_s_ >= std::max(enough_s, kPatience * searched_s_);
 }
 
@@ -96,8 +96,10 @@ ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
   if (sweep.cloud.IsInstant()) {
     sweep.cloud.begin_ns = sweep.cloud.end_ns;
   } else {
-    sweep.tau = MotionOfFirstInterval(sweep.cloud, options_.initialization, options_.map,
-                                      options_.registration, threads);
+    sweep.tau = sweep.cloud.Duration_s() *
+                MotionOfFirstInterval(sweep.cloud, options_.initialization, options_.map,
+                                      options_.registration, threads)
+                    .velocity;
   }
   const auto found = Relocalize(sweep.cloud, sweep.tau, map, Region(sweep.cloud.begin_ns),
                                 options_.registration, threads);

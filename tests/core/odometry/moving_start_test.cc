@@ -1,24 +1,63 @@
 // SPDX-License-Identifier: MIT
-// A recording that begins at 30 m/s: the road agrees with any speed, and the cars beside it with
-// rest.
+// Recordings that begin in motion.
 #include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
 
 #include "tests/support/simulated_run.h"
 
 namespace trajlo {
 namespace {
 
-class MovingStart : public ::testing::TestWithParam<std::uint64_t> {};
+struct Start {
+  std::string scenario;
+  std::uint64_t seed;
+  double shake = 1.0;
+};
+void PrintTo(const Start& start, std::ostream* os) {
+  *os << start.scenario << " shake " << start.shake << " seed " << start.seed;
+}
 
-TEST_P(MovingStart, OnAMotorwayIsFound) {
-  simulation::Scenario scenario = simulation::MakeScenario("motorway_hdl64");
-  scenario.duration_s = 0.8;
-  scenario.seed = GetParam();
-  const testing::SimulatedRun run(scenario);
+simulation::Scenario ScenarioOf(const Start& start, double duration_s) {
+  simulation::Scenario scenario = simulation::MakeScenario(start.scenario);
+  scenario.motion.moving_start = true;
+  scenario.motion.shake = start.shake;
+  scenario.duration_s = duration_s;
+  scenario.seed = start.seed;
+  return scenario;
+}
+
+/// At 30 m/s the road agrees with any speed, and the cars beside it with rest.
+class OnAMotorway : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(OnAMotorway, TheSpeedIsFound) {
+  const testing::SimulatedRun run(ScenarioOf({"motorway_hdl64", GetParam()}, 0.8));
   EXPECT_LT(run.LargestError_m(), 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, MovingStart, ::testing::Values(1, 4, 5));
+INSTANTIATE_TEST_SUITE_P(MovingStart, OnAMotorway, ::testing::Values(1, 4, 5));
+
+/// In a flight with quick turns no constant twist explains the first 0.3 s.
+class InAFlight : public ::testing::TestWithParam<Start> {};
+
+TEST_P(InAFlight, TheFirstMapIsNotBlurred) {
+  const testing::SimulatedRun run(ScenarioOf(GetParam(), 2.0));
+  EXPECT_FALSE(run.lost_at_ns);
+  // The first pose is the frame of all others: the motion since a later one is what counts.
+  const std::size_t from = run.poses.size() / 4;
+  const SE3 estimated = run.poses[from].T_world_body.Inverse() * run.poses.back().T_world_body;
+  const SE3 error = (run.truth[from].Inverse() * run.truth.back()).Inverse() * estimated;
+  EXPECT_LT(error.t.norm(), 0.15);
+  EXPECT_LT(so3::Log(error.q).norm(), 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(MovingStart, InAFlight,
+                         ::testing::Values(Start{"courtyard_os1_16", 1},
+                                           Start{"courtyard_os1_16", 3},
+                                           Start{"hall_os1_16", 1, 2.0},
+                                           Start{"hall_os1_16", 2, 2.0}, Start{"facade_os1_16", 4},
+                                           Start{"facade_os1_16", 3}));
 
 }  // namespace
 }  // namespace trajlo

@@ -27,7 +27,6 @@ inline LidarScan MakeScan(std::int64_t first_ms, int count, int lidar = 0) {
 
 inline SegmenterOptions SmallOptions() {
   SegmenterOptions options;
-  options.first_interval_s = 0.1;
   options.interval_s = 0.03;
   options.map_voxel_m = 0.5;
   options.registration_voxel_m = 2.0;

@@ -25,7 +25,6 @@ LidarScan MakeScan(int number) {
 
 SegmenterOptions Options() {
   SegmenterOptions options;
-  options.first_interval_s = 0.1;
   options.interval_s = 0.03;
   return options;
 }

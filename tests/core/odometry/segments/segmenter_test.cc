@@ -17,9 +17,9 @@ TEST(Segmenter, HasNoHolesBetweenSegmentsAndTimesWithinThem) {
   for (int t = 0; t < 1000; t += 100) segmenter.AddScan(MakeScan(t, 100));
   segmenter.Finish();
   const auto clouds = Drain(&segmenter);
-  EXPECT_EQ(clouds[0].end_ns - clouds[0].begin_ns, 100 * kMs);
-  for (std::size_t k = 1; k < clouds.size(); ++k) {
-    EXPECT_EQ(clouds[k].begin_ns, clouds[k - 1].end_ns);
+  ASSERT_GT(clouds.size(), 30U);
+  for (std::size_t k = 0; k < clouds.size(); ++k) {
+    EXPECT_EQ(clouds[k].begin_ns, k > 0 ? clouds[k - 1].end_ns : 0);
     EXPECT_EQ(clouds[k].end_ns - clouds[k].begin_ns, 30 * kMs);
     for (const SegmentPoint& point : clouds[k].map_points) {
       EXPECT_GE(point.alpha, 0.0F);
@@ -108,7 +108,7 @@ TEST(Segmenter, MergesLidarsInTheBodyFrameAndWaitsForTheSlowerOne) {
   EXPECT_TRUE(Drain(&segmenter).empty()) << "the second LiDAR has not spoken yet";
   segmenter.AddScan(MakeScan(0, 150, 1));
   const auto clouds = Drain(&segmenter);
-  ASSERT_EQ(clouds.size(), 2u) << "up to 130 ms: the segment that ends at 160 ms is open";
+  ASSERT_EQ(clouds.size(), 4u) << "up to 120 ms: the segment that ends at 150 ms is open";
   bool first = false, second = false;
   for (const SegmentPoint& point : clouds[1].map_points) {
     (point.p_body_m.z() > 50 ? second : first) = true;
@@ -203,7 +203,6 @@ TEST(Segmenter, NoSegmentIsShorterThanAMillisecond) {
     options.map_voxel_m = 1e-4;
     options.max_range_m = 1e6;
     options.interval_s = std::vector<double>{0.03, 1e-9, 0.0, 0.1}[below(4)];
-    options.first_interval_s = std::vector<double>{0.1, 0.0, 0.3}[below(3)];
     options.max_gap_s = std::vector<double>{1.0, 0.0, 0.2}[below(3)];
     const int lidars = 1 + below(3);
     options.T_body_lidar.resize(static_cast<std::size_t>(lidars));
@@ -257,19 +256,18 @@ TEST(Segmenter, TurnsRaysUpByTheVerticalCorrection) {
 
 TEST(Segmenter, RegistersAtMostSoManyPointsSpreadOverTheSegment) {
   SegmenterOptions options = SmallOptions();
-  options.first_interval_s = 0.001;
   options.interval_s = 0.1;
   options.map_voxel_m = options.registration_voxel_m = 0.01;
   options.max_registration_points = 7;
   Segmenter segmenter(options);
-  segmenter.AddScan(MakeScan(0, 101));
+  segmenter.AddScan(MakeScan(0, 100));
   segmenter.Finish();
   const auto clouds = Drain(&segmenter);
-  ASSERT_GE(clouds.size(), 2u);
-  ASSERT_EQ(clouds[1].registration_points.size(), 7u);
-  EXPECT_GT(clouds[1].map_points.size(), 90u);
+  ASSERT_EQ(clouds.size(), 1u);
+  ASSERT_EQ(clouds[0].registration_points.size(), 7u);
+  EXPECT_GT(clouds[0].map_points.size(), 90u);
   for (std::size_t i = 1; i < 7; ++i) {
-    EXPECT_NEAR(clouds[1].registration_points[i].alpha - clouds[1].registration_points[i - 1].alpha,
+    EXPECT_NEAR(clouds[0].registration_points[i].alpha - clouds[0].registration_points[i - 1].alpha,
                 1.0 / 7, 0.02);
   }
 }
