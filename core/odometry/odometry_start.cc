@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a map begins.
-#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/odometry/odometry.h"
 #include "core/odometry/segments/join_segments.h"
@@ -22,6 +22,7 @@ void Odometry::Begin(Beginning beginning) {
   search_.reset();
   beginning_ = std::move(beginning);
   SegmentCloud& first = beginning_->segments.front();
+  // Nothing was measured between the scan before it and its own time.
   if (first.IsInstant()) first.begin_ns = first.end_ns;
   if (beginning_->IsWhole(options_.initialization)) Start();
 }
@@ -52,6 +53,7 @@ void Odometry::Start() {
   for (std::size_t k = 1; k < segments.size(); ++k) Take(std::move(segments[k]));
 }
 
+/// A map of one cloud alone, and a window that begins where the cloud ends.
 void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& velocity,
                         unsigned flags) {
   const double duration_s = cloud.Duration_s();

@@ -85,7 +85,8 @@ bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const
 bool DoubtWatch::Agrees(const Window& window, const Segment& segment, double on_map,
                         double of_usual) const {
   const MapAgreement agreement = AgreementOf(window, segment);
-  return agreement.on_map >= on_map && agreement.worst >= of_usual * usual_agreement_.value_or(kAgreementAtFirst);
+  return agreement.on_map >= on_map &&
+         agreement.worst >= of_usual * usual_agreement_.value_or(kAgreementAtFirst);
 }
 
 }  // namespace trajlo

@@ -57,12 +57,12 @@ struct SegmenterOptions {
 
 /// Cuts the stream of scans into segments, whatever the length of a scan.
 ///
-/// Segment 0 starts at the first point; the others follow without holes. A segment is handed out when every LiDAR has passed its end, but for one that is silent
-/// or late. Where no scan has point times (motion-corrected ones) each becomes a segment, from the
-/// previous stamp to its own, with alpha = 1 for every point: the discrete mode of the paper. The
-/// first of these is an instant, which only fills the map. After a gap, such a segment is as long
-/// as the one before it. Every other segment lasts a millisecond at least: scans that are closer
-/// share one.
+/// Segment 0 starts at the first point; the others follow without holes. A segment is handed out
+/// when every LiDAR has passed its end, but for one that is silent or late. Where no scan has point
+/// times (motion-corrected ones) each becomes a segment, from the previous stamp to its own, with
+/// alpha = 1 for every point: the discrete mode of the paper. The first of these is an instant,
+/// which only fills the map. After a gap, such a segment is as long as the one before it. Every
+/// other segment lasts a millisecond at least: scans that are closer share one.
 ///
 /// Times must be sane, as ScanSequencer makes them.
 class Segmenter {
