@@ -29,10 +29,13 @@ void Odometry::Begin(Beginning beginning) {
 
 /// One more segment of the first interval. A gap ends it.
 void Odometry::TakeFirst(SegmentCloud cloud) {
-  const bool is_gap = cloud.is_gap;
-  if (!is_gap) beginning_->segments.push_back(std::move(cloud));
-  if (is_gap || beginning_->IsWhole(options_.initialization)) Start();
-  if (is_gap) Take(std::move(cloud));
+  if (cloud.is_gap) {
+    Start();
+    Take(std::move(cloud));
+    return;
+  }
+  beginning_->segments.push_back(std::move(cloud));
+  if (beginning_->IsWhole(options_.initialization)) Start();
 }
 
 /// The motion during the first interval, then a map, and a window that begins where that ends. A
