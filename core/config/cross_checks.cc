@@ -34,6 +34,10 @@ void CheckConfig(const RunConfig& config) {
   RequireAtMost({"expert.segmenter.map_voxel_m", segmenter.map_voxel_m},
                 {"expert.segmenter.registration_voxel_m", segmenter.registration_voxel_m},
                 "the points to register are taken from those for the map");
+  RequireAtMost(
+      {"segmenter.interval_s", segmenter.interval_s},
+      {"expert.initialization.first_interval_s", config.odometry.initialization.first_interval_s},
+      "the first interval is made of whole segments");
   RequireLess({"segmenter.interval_s", segmenter.interval_s},
               {"expert.segmenter.max_gap_s", segmenter.max_gap_s},
               "otherwise the time between two segments would count as a pause");

@@ -11,11 +11,12 @@
 namespace trajlo {
 
 /// Doubts the place of a body that its points did not hold for so long that it may have left the
-/// planes it was on; also behind a pause, if the first window there does not settle. It may settle
-/// on planes to which it does not belong, and a map that grew there would prove it right. So poses
-/// stay flagged, and the map does not grow, until the points agree with it in all directions as
-/// well as they did before. Where all that was wrong is that the points left a direction open, the
-/// map grows with what is new to it: a fast body would soon be out of it.
+/// planes it was on; also where it jumps, and behind a pause, if the first window there does not
+/// settle. It may settle on planes to which it does not belong, and a map that grew there would
+/// prove it right. So poses stay flagged, and the map does not grow, until the points agree with it
+/// in all directions as well as they did before. Where all that was wrong is a jump, or that the
+/// points left a direction open, the map grows with what is new to it: a fast body would soon be
+/// out of it.
 class DoubtWatch {
  public:
   /// After `window` was judged; `density` is that of the acceleration, see MotionPrior.

@@ -16,12 +16,12 @@ struct InitialMotion {
   /// the hypothesis that the sensor stood still.
   double agreement = 0.0;
   double agreement_at_rest = 0.0;
-  /// The same under tau, of the points that have a plane.
-  double agreement_with_planes = 0.0;
   /// The same, of planes that face the direction which is held weakly, if one is: of the others,
   /// many agree with any motion along it.
   double facing_agreement = 0.0;
   double facing_agreement_at_rest = 0.0;
+  /// As `agreement`, but of the points that have a plane.
+  double agreement_with_planes = 0.0;
 };
 
 /// Finds how the sensor moved during the first interval from nothing but the interval itself: the

@@ -190,8 +190,9 @@ TEST(Config, ContradictionsNameBothKeysAndTheirValues) {
   EXPECT_THAT(problem("expert.segmenter.map_voxel_m=1,expert.segmenter.registration_voxel_m=0.5"),
               HasSubstr("expert.segmenter.registration_voxel_m (0.5)"));
   for (const char* settings :
-       {"expert.segmenter.max_gap_s=0.02", "expert.map.min_point_spacing_m=0.9",
-        "map.radius_m=2,map.voxel_size_m=3", "expert.map.plane.neighbors=3"}) {
+       {"segmenter.interval_s=0.5", "expert.segmenter.max_gap_s=0.02",
+        "expert.map.min_point_spacing_m=0.9", "map.radius_m=2,map.voxel_size_m=3",
+        "expert.map.plane.neighbors=3"}) {
     EXPECT_NE(problem(settings), "") << settings;
   }
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <vector>
 
 #include "core/odometry/segments/join_segments.h"
@@ -15,15 +17,20 @@ namespace {
 constexpr double kInterval_s = 0.3;
 constexpr std::size_t kSegments = 10;  ///< Of 0.03 s.
 
-/// The first interval of a world that moves by a constant twist.
-SegmentCloud FirstInterval(const Vector6d& twist_per_s) {
+/// The first interval of a body that moves like this.
+SegmentCloud FirstInterval(const std::function<SE3(double t_s)>& T_world_body) {
   testing::SyntheticWorld world;
-  world.T_world_body = [&](double t) { return se3::Exp(t * twist_per_s); };
+  world.T_world_body = T_world_body;
   Segmenter segmenter{SegmenterOptions()};
   for (int i = 0; i < 5; ++i) segmenter.AddScan(world.Sweep(i));
   std::vector<SegmentCloud> segments;
   while (segments.size() < kSegments) segments.push_back(segmenter.Next().value());
   return JoinSegments(segments);
+}
+
+/// By a constant twist.
+SegmentCloud FirstInterval(const Vector6d& twist_per_s) {
+  return FirstInterval([&](double t_s) { return se3::Exp(t_s * twist_per_s); });
 }
 
 Vector6d Twist(double forward_m_s, double yaw_rad_s) {
@@ -55,6 +62,19 @@ TEST(InitialMotion, AtRestIsTakenForRest) {
   const FirstMotion motion = MotionOfFirstInterval(cloud, {}, {}, {}, &threads);
   EXPECT_EQ(motion.velocity, Vector6d(Vector6d::Zero()));
   EXPECT_TRUE(motion.is_steady);
+}
+
+TEST(InitialMotion, ATurnToAndFroIsNotSteady) {
+  const auto is_steady = [](const SegmentCloud& cloud) {
+    ThreadPool threads(1);
+    return MotionOfFirstInterval(cloud, {}, {}, {}, &threads).is_steady;
+  };
+  EXPECT_TRUE(is_steady(FirstInterval(Twist(1.5, 0.6))));
+  EXPECT_FALSE(is_steady(FirstInterval([](double t_s) {
+    Vector6d tau = t_s * Twist(1.5, 0.0);
+    tau[4] = 0.15 * std::sin(2.0 * M_PI * 2.5 * t_s);
+    return se3::Exp(tau);
+  })));
 }
 
 TEST(InitialMotion, IsNotLookedForWhereItIsSwitchedOff) {
