@@ -13,6 +13,7 @@
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/fit_kernel.h"
 #include "core/odometry/window/graduated_kernel.h"
+#include "core/odometry/window/point_scatter.h"
 #include "core/odometry/window/push_segment.h"
 
 namespace trajlo {
@@ -105,7 +106,7 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
     s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, &window_);
-    if (s->rounds == 0) FitKernel(options_.registration, &window_);
+    if (s->rounds == 0) FitNoise();
     s->milliseconds_associate += watch.Milliseconds();
     const bool is_widened = kernel.Widen(newest);
     s->Add(solver_->Solve(&window_), options_.solver);
@@ -115,6 +116,12 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
     }
     s->milliseconds_solve += watch.Milliseconds();
   }
+}
+
+/// How noisy the points are, they show by their distances from the planes.
+void Odometry::FitNoise() {
+  FitKernel(options_.registration, &window_);
+  map_.SetScatter(std::min(PointScatter(window_), options_.registration.kernel_m));
 }
 
 /// Judges the window by those before it as well.

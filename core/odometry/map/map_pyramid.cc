@@ -97,7 +97,7 @@ void MapPyramid::AskLevel(int i, Batch* batch) const {
     const Eigen::Vector3d center_world =
         level.shares_planes() ? level.CenterOf(cells[j]) : asked.place_world;
     const FittedPlane plane = level.PlaneAt(*sites[j], cells[j], center_world);
-    if (!plane.exists()) continue;
+    if (!plane.exists() || plane.width_m < min_width_m_) continue;
     Batch::Query& query = batch->queries[q];
     const bool is_grazed = IsGrazed(plane, asked.ray_world);
     if (!query.IsReplacedBy(plane, is_grazed, asked.place_world)) continue;

@@ -70,6 +70,11 @@ class MapPyramid {
   void DropRefused(std::vector<Eigen::Vector3d>* points_world) const {
     levels_.front().points().DropRefused(points_world);
   }
+  /// How far points lie from their planes (a standard deviation), as far as that is known. Planes
+  /// that are hardly wider are noise: FindPlanes() takes a coarser one, or none.
+  void SetScatter(double scatter_m) {
+    min_width_m_ = static_cast<float>(PlaneFitOptions::kMinWidthInScatters * scatter_m);
+  }
   void RemoveFar(const Eigen::Vector3d& center_world);
 
   /// Within a cell of the finest level, all levels have the same planes, if they are shared.
@@ -97,6 +102,7 @@ class MapPyramid {
 
   PlaneFitOptions plane_;
   std::int64_t version_ = 0;
+  float min_width_m_ = 0.0F;
   std::deque<MapLevel> levels_;
 };
 

@@ -16,6 +16,10 @@ struct PlaneFitOptions {
   double min_width_in_spacings = 0.53;
   /// Upper bound of l0 / l1.
   static constexpr double kMaxFlatness = 0.5;
+  /// Lower bound of l1 in standard deviations of the noise of the points. The map's points around
+  /// a place that noise displaces fill a ball, of which the eight nearest make planes in any
+  /// direction: they pass through wherever one asks, and hold the sensor there.
+  static constexpr double kMinWidthInScatters = 1.5;
   double min_incidence_sine = 0.1;
   double max_wide_flatness = 0.1;
   /// Upper bound of the distance from a plane of a coarser level that is preferred to the point

@@ -92,6 +92,46 @@ TEST(MapPyramid, AWallThatScattersKeepsItsNormal) {
   EXPECT_GT(right, 75);  // 59 if thin planes were preferred for being thin.
 }
 
+TEST(MapPyramid, PlanesThatNoiseMakesAreNoneOnceTheNoiseIsKnown) {
+  // One scan line along a wall, with ranges that scatter: around a place, its points spread along
+  // the line and along the ray, and make a level plane, which no wall has.
+  constexpr double kScatter_m = 0.08;
+  testing::Random random(14);
+  std::vector<Eigen::Vector3d> line;
+  for (const double y : Steps(-4.0, 4.0, 0.01)) {
+    line.emplace_back(5.0 + random.Gaussian(kScatter_m), y, random.Gaussian(0.005));
+  }
+  MapPyramid map = MakeMap({}, line);
+  const auto count_level = [&] {
+    int level = 0;
+    for (const double y : Steps(-3.0, 3.0, 0.05)) {
+      const Eigen::Vector3d query(5.0 + random.Gaussian(kScatter_m), y, 0.05);
+      // From a height at which the ray does not graze the plane.
+      const Plane plane = map.FindPlane({query, {1.0F, 0.0F, -0.3F}});
+      level += plane.exists() && std::abs(plane.normal_world.z()) > 0.9 ? 1 : 0;
+    }
+    return level;
+  };
+  EXPECT_GT(count_level(), 60);
+  map.SetScatter(kScatter_m);
+  EXPECT_LT(count_level(), 6);
+}
+
+TEST(MapPyramid, APlaneThatIsWideBesideTheNoiseStays) {
+  std::vector<Eigen::Vector3d> ground;
+  testing::Random random(15);
+  for (const double x : Steps(-4.0, 4.0, 0.05)) {
+    for (const double y : Steps(-4.0, 4.0, 0.05)) ground.emplace_back(x, y, random.Gaussian(0.08));
+  }
+  MapPyramid map = MakeMap({}, ground);
+  map.SetScatter(0.08);
+  for (const double y : Steps(-2.0, 2.0, 0.1)) {
+    const Plane plane = map.FindPlane({{0.0, y, 0.0}, {1.0F, 0.0F, -1.0F}});
+    ASSERT_TRUE(plane.exists());
+    EXPECT_GT(std::abs(plane.normal_world.z()), 0.9);
+  }
+}
+
 TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
   std::vector<Eigen::Vector3d> wall_then_post;
   for (const double y : Steps(-4.0, 4.0, 0.05)) {
