@@ -48,6 +48,23 @@ inline Window MakeTestWindow(unsigned seed, int points_per_segment = 300) {
   return window;
 }
 
+/// The same window, whose points are off their planes by noise of `noise_m` at its poses, and a
+/// share `outliers` of them by a metre.
+inline Window MakeNoisyWindow(double noise_m, double outliers = 0.0,
+                              int points_per_segment = 1000) {
+  Window window = MakeTestWindow(1, points_per_segment);
+  Random random(2);
+  for (int k = 0; k < window.size(); ++k) {
+    Segment& segment = window.segments[static_cast<std::size_t>(k)];
+    for (RegistrationPoint& point : segment.points) {
+      const SE3 T = Interpolate(window.Pose(k), segment.T_world_end, point.alpha);
+      const double off_m = random.Uniform(0, 1) < outliers ? 1.0 : random.Gaussian(noise_m);
+      point.offset_m = point.normal_world.dot(T * point.p_body_m) + off_m;
+    }
+  }
+  return window;
+}
+
 /// The largest component of the differences between poses.
 inline double LargestDifference(const std::vector<SE3>& a, const std::vector<SE3>& b) {
   double largest = 0.0;

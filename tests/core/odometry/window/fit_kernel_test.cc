@@ -8,26 +8,13 @@
 namespace trajlo {
 namespace {
 
-using testing::Random;
-
 constexpr double kSigma_m = 0.09;
 const RegistrationOptions kOptions;  // sigma_m 0.03, kernel_m 0.1, 3 spreads
 
-/// A window whose points are off their planes by noise of `noise_m`, and `outliers` of them by a
-/// metre.
 Window MakeNoisyWindow(double noise_m, double outliers = 0.0, int points_per_segment = 1000) {
-  Window window = testing::MakeTestWindow(1, points_per_segment);
+  Window window = testing::MakeNoisyWindow(noise_m, outliers, points_per_segment);
   window.noise = {kSigma_m, {KernelKind::kCauchy, kOptions.kernel_m / kSigma_m}};
-  Random random(2);
-  for (int k = 0; k < window.size(); ++k) {
-    Segment& segment = window.segments[static_cast<std::size_t>(k)];
-    for (RegistrationPoint& point : segment.points) {
-      const SE3 T = Interpolate(window.Pose(k), segment.T_world_end, point.alpha);
-      const double off_m = random.Uniform(0, 1) < outliers ? 1.0 : random.Gaussian(noise_m);
-      point.offset_m = point.normal_world.dot(T * point.p_body_m) + off_m;
-    }
-    segment.linearization.emplace();
-  }
+  for (Segment& segment : window.segments) segment.linearization.emplace();
   return window;
 }
 
