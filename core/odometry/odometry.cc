@@ -86,6 +86,7 @@ void Odometry::Step(SegmentCloud cloud) {
   SideTask learning(&threads_);
   if (window_.is_believed) {
     NoteSupport();
+    NoteScatter();
     learning.Start([&] { Learn(predicted.back()); });
   } else {
     Revert(predicted, &window_);
@@ -106,7 +107,7 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
   while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
     Stopwatch watch;
     s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, &window_);
-    if (s->rounds == 0) FitNoise();
+    if (s->rounds == 0) FitKernel(options_.registration, &window_);
     s->milliseconds_associate += watch.Milliseconds();
     const bool is_widened = kernel.Widen(newest);
     s->Add(solver_->Solve(&window_), options_.solver);
@@ -118,9 +119,8 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
   }
 }
 
-/// How noisy the points are, they show by their distances from the planes.
-void Odometry::FitNoise() {
-  FitKernel(options_.registration, &window_);
+/// How noisy the points are, they show at solved poses: a bad prediction is no noise.
+void Odometry::NoteScatter() {
   map_.SetScatter(std::min(PointScatter(window_), options_.registration.kernel_m));
 }
 

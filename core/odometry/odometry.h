@@ -91,7 +91,7 @@ class Odometry {
   void TakeBackAndSearch(const std::vector<SE3>& predicted);
   void NoteSupport();
   void AssociateAndSolve(WindowStatistics* statistics);
-  void FitNoise();
+  void NoteScatter();
   void Watch(WindowStatistics* statistics);
   void Learn(const SE3& T_world_predicted);
   bool MayEnterMap(const Segment& segment) const;
