@@ -44,7 +44,10 @@ std::vector<Parameter> LidarParameters(const std::string& prefix, LidarConfig* l
           {prefix + "angle_sigma_rad", Real{&m.angle_sigma_rad, 0.0, 3.0}},
           {prefix + "dropout_fraction", Share(&m.dropout_fraction)},
           {prefix + "min_range_m", Metres(&m.min_range_m)},
-          {prefix + "max_range_m", Metres(&m.max_range_m)}};
+          {prefix + "max_range_m", Metres(&m.max_range_m)},
+          {prefix + "laser_range_sigma_m", Metres(&m.laser_range_sigma_m)},
+          {prefix + "laser_angle_sigma_rad", Real{&m.laser_angle_sigma_rad, 0.0, 1.0}},
+          {prefix + "divergence_rad", Real{&m.divergence_rad, 0.0, 1.0}}};
 }
 
 /// The shortest text that reads back as the same double.

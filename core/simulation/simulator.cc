@@ -12,6 +12,7 @@
 #include "core/simulation/random.h"
 #include "core/simulation/scan_stream.h"
 #include "core/simulation/scenes/scene_builder.h"
+#include "core/simulation/sensors/laser_error.h"
 
 namespace trajlo::simulation {
 
@@ -24,13 +25,23 @@ constexpr int kFiringsPerTask = 2048;
 
 std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
 
-/// A direction turned by small normal angles about two axes across it.
-Vector3d Disturbed(const Vector3d& direction, double sigma_rad, CounterRandom* random) {
-  const Vector3d u = direction.unitOrthogonal();
-  const Vector3d v = direction.cross(u);
-  const double a = sigma_rad * random->Gaussian();
-  const double b = sigma_rad * random->Gaussian();
-  return (direction + a * u + b * v).normalized();
+/// What comes back of a beam that has a width: of two rays in it, of which each has a random share
+/// of the light. Two surfaces that are near each other return one pulse, in between.
+std::optional<RayHit> CastBeam(const Scene& scene, const Vector3d& origin, const Vector3d& middle,
+                               double t_s, const MeasurementModel& model, CounterRandom* random) {
+  constexpr double kOnePulse_m = 0.5;
+  std::optional<RayHit> hit = scene.CastRay(origin, middle, t_s, model.max_range_m);
+  if (model.divergence_rad == 0.0) return hit;
+  const double angle = random->Uniform(0.0, 2.0 * M_PI);
+  const double radius_rad = 0.5 * model.divergence_rad * std::sqrt(random->Uniform());
+  const Vector3d edge = Turned(middle, radius_rad * std::sin(angle), radius_rad * std::cos(angle));
+  const std::optional<RayHit> other = scene.CastRay(origin, edge, t_s, model.max_range_m);
+  const double share = random->Uniform();
+  if (!hit || !other || std::abs(hit->range_m - other->range_m) > kOnePulse_m) {
+    return share < 0.5 ? hit : other;
+  }
+  hit->range_m += share * (other->range_m - hit->range_m);
+  return hit;
 }
 
 }  // namespace
@@ -65,6 +76,8 @@ Simulator::Simulator(const Scenario& scenario, Scene scene, PoseFunction T_world
   for (const LidarConfig& lidar : scenario.rig) {
     sensors_.push_back(MakeSensor(lidar.sensor, lidar.columns));
     sensors_.back().measurement = lidar.measurement;
+    const auto id = static_cast<int>(laser_errors_.size());
+    laser_errors_.push_back(DrawLaserErrors(sensors_.back(), scenario.seed, id));
   }
 }
 
@@ -118,6 +131,7 @@ void Simulator::CastFirings(int lidar_id, std::int64_t index, int first, int las
   const LidarConfig& lidar = scenario_.rig[id];
   const ScanPattern& pattern = *sensors_[id].pattern;
   const MeasurementModel& model = lidar.measurement;
+  const std::vector<LaserError>& errors = laser_errors_[id];
   const std::int64_t begin_ns = ToNs(lidar.phase_s) + index * pattern.period_ns();
   const std::int64_t stamp_ns = start_ns_ + begin_ns + ToNs(lidar.clock_offset_s);
   std::int64_t pose_offset_ns = -1;
@@ -134,15 +148,15 @@ void Simulator::CastFirings(int lidar_id, std::int64_t index, int first, int las
     CounterRandom random(scenario_.seed, static_cast<std::uint64_t>(lidar_id),
                          static_cast<std::uint64_t>(index), static_cast<std::uint64_t>(i));
     if (random.Uniform() < model.dropout_fraction) continue;
-    const double noise_m = model.range_sigma_m * random.Gaussian();
-    const Vector3d beam = model.angle_sigma_rad > 0.0
-                              ? Disturbed(firing.direction, model.angle_sigma_rad, &random)
-                              : firing.direction;
-    const Vector3d ray = T_world_lidar.q * beam;
-    const std::optional<RayHit> hit = scene_.CastRay(T_world_lidar.t, ray, t_s, model.max_range_m);
+    const LaserError& error = errors[static_cast<std::size_t>(i) % errors.size()];
+    const double range_error_m = error.range_m + model.range_sigma_m * random.Gaussian();
+    const double up_rad = error.up_rad + model.angle_sigma_rad * random.Gaussian();
+    const double left_rad = error.left_rad + model.angle_sigma_rad * random.Gaussian();
+    const Vector3d ray = T_world_lidar.q * Turned(firing.direction, up_rad, left_rad);
+    const std::optional<RayHit> hit = CastBeam(scene_, T_world_lidar.t, ray, t_s, model, &random);
     if (!hit || hit->range_m < model.min_range_m) continue;
     LidarPoint point;
-    point.xyz_m = (firing.direction * (hit->range_m + noise_m)).cast<float>();
+    point.xyz_m = (firing.direction * (hit->range_m + range_error_m)).cast<float>();
     // A diffuse surface: what comes back falls with the cosine of the angle of incidence. The
     // sensors compensate for the distance.
     point.intensity = 255.0F * hit->reflectivity * static_cast<float>(-hit->normal.dot(ray));

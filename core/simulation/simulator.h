@@ -7,6 +7,7 @@
 
 #include "core/simulation/scenario.h"
 #include "core/simulation/scene.h"
+#include "core/simulation/sensors/laser_error.h"
 #include "core/simulation/simulated_scan.h"
 #include "core/simulation/triangle_mesh.h"
 
@@ -46,6 +47,7 @@ class Simulator {
   Scene scene_;
   PoseFunction T_world_body_;
   std::vector<SensorModel> sensors_;
+  std::vector<std::vector<LaserError>> laser_errors_;  ///< Of each LiDAR.
   std::int64_t start_ns_;
   std::int64_t end_ns_;
 };

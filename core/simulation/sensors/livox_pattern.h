@@ -29,6 +29,7 @@ class RosettePattern final : public ScanPattern {
   explicit RosettePattern(const RosetteParameters& parameters) : parameters_(parameters) {}
   std::int64_t period_ns() const override { return parameters_.period_ns; }
   int firings_per_scan() const override;
+  int lasers() const override { return static_cast<int>(parameters_.line_offsets_deg.size()); }
   Firing At(std::int64_t scan, int firing) const override;
 
  private:
@@ -53,6 +54,7 @@ class NoddingPattern final : public ScanPattern {
   explicit NoddingPattern(const NoddingParameters& parameters) : parameters_(parameters) {}
   std::int64_t period_ns() const override { return parameters_.period_ns; }
   int firings_per_scan() const override;
+  int lasers() const override { return parameters_.lines; }
   Firing At(std::int64_t scan, int firing) const override;
 
  private:

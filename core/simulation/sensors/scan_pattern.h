@@ -24,6 +24,8 @@ class ScanPattern {
   virtual ~ScanPattern() = default;
   virtual std::int64_t period_ns() const = 0;
   virtual int firings_per_scan() const = 0;
+  /// They fire in turn: firing i is one of laser i % lasers().
+  virtual int lasers() const = 0;
   /// `scan` counts from the start of the recording: a non-repetitive pattern differs in each scan.
   virtual Firing At(std::int64_t scan, int firing) const = 0;
 };

@@ -18,6 +18,12 @@ struct MeasurementModel {
   double dropout_fraction = 0.01;
   double min_range_m = 0.5;
   double max_range_m = 100.0;
+  /// What is wrong with each laser throughout a recording: its range, and its direction (about each
+  /// of the two axes across it; its points are reported along the nominal one).
+  double laser_range_sigma_m = 0.0;
+  double laser_angle_sigma_rad = 0.0;
+  /// Full width of a beam. Where it lights two surfaces at once, the range is a mixture.
+  double divergence_rad = 0.0;
 };
 
 /// A LiDAR: where and when it looks, and how well it measures.

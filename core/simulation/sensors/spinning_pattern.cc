@@ -6,7 +6,7 @@
 namespace trajlo::simulation {
 
 SpinningPattern::SpinningPattern(const SpinningParameters& parameters)
-    : period_ns_(parameters.period_ns) {
+    : period_ns_(parameters.period_ns), lasers_(static_cast<int>(parameters.beams.size())) {
   constexpr double kRadPerDeg = M_PI / 180.0;
   const double period_us = static_cast<double>(parameters.period_ns) * 1e-3;
   firings_.reserve(parameters.beams.size() * static_cast<std::size_t>(parameters.columns));

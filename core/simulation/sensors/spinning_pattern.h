@@ -33,12 +33,14 @@ class SpinningPattern final : public ScanPattern {
   explicit SpinningPattern(const SpinningParameters& parameters);
   std::int64_t period_ns() const override { return period_ns_; }
   int firings_per_scan() const override { return static_cast<int>(firings_.size()); }
+  int lasers() const override { return lasers_; }
   Firing At(std::int64_t /*scan*/, int firing) const override {
     return firings_[static_cast<std::size_t>(firing)];
   }
 
  private:
   std::int64_t period_ns_;
+  int lasers_;
   std::vector<Firing> firings_;
 };
 
