@@ -3,7 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "factors/registration_point.h"
@@ -26,17 +29,21 @@ inline constexpr int kLanes = 4;
 inline constexpr int kGroups = 8;
 
 /// A point begins with p and alpha, four numbers; n and the offset follow.
-static_assert(sizeof(RegistrationPoint) == 11 * sizeof(double));
+static_assert(sizeof(RegistrationPoint) == 12 * sizeof(double));
 inline Lane4 LoadFour(const RegistrationPoint& point, int first) {
   Lane4 four;
   std::memcpy(&four, reinterpret_cast<const char*>(&point) + first * sizeof(double), sizeof(four));
   return four;
 }
 
+/// The axes of four points.
+using LaneAxes = std::array<std::int64_t, kLanes>;
+
 /// Four points, with one lane for each.
 struct GatheredPoints {
   Vector3<Lane4> p, n;
   Lane4 alpha, offset, weight;
+  LaneAxes axis;
 
   explicit GatheredPoints(const RegistrationPoint* first, std::size_t stride = 1)
       : GatheredPoints(first[0], first[stride], first[2 * stride], first[3 * stride]) {}
@@ -47,7 +54,8 @@ struct GatheredPoints {
         n{LoadFour(p0, 4), LoadFour(p1, 4), LoadFour(p2, 4)},
         alpha(LoadFour(p3, 0)),
         offset(LoadFour(p3, 4)),
-        weight{p0.weight, p1.weight, p2.weight, p3.weight} {
+        weight{p0.weight, p1.weight, p2.weight, p3.weight},
+        axis{p0.axis, p1.axis, p2.axis, p3.axis} {
     lanes::Transpose(&p.x, &p.y, &p.z, &alpha);
     lanes::Transpose(&n.x, &n.y, &n.z, &offset);
   }
@@ -65,56 +73,93 @@ inline GatheredPoints Gather(const RegistrationPoint* points, std::size_t count,
   return GatheredPoints(filled);
 }
 
-/// rho'(s).
-inline Lane4 KernelWeight(const RobustKernel& kernel, const Lane4& s) {
-  const double a = kernel.width * kernel.width;
-  if (kernel.kind == KernelKind::kCauchy) return a / (a + s);
-  Lane4 weight{};
-  for (int i = 0; i < kLanes; ++i) weight[i] = kernel.Weight(s[i]);
-  return weight;
-}
+/// The kernels of the three axes.
+class AxisKernels {
+ public:
+  explicit AxisKernels(const RegistrationNoise& noise) : is_cauchy_(IsCauchy(noise)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      kernels_[i] = noise.KernelOf(static_cast<std::int64_t>(i));
+      a_[i] = kernels_[i].width * kernels_[i].width;
+    }
+  }
+  static bool IsCauchy(const RegistrationNoise& noise) {
+    return noise.kernel.kind == KernelKind::kCauchy;
+  }
+  bool is_cauchy() const { return is_cauchy_; }
+
+  const RobustKernel& Of(std::int64_t axis) const { return kernels_[At(axis)]; }
+  /// Squares of the widths.
+  double Square(std::int64_t axis) const { return a_[At(axis)]; }
+  Lane4 Squares(const LaneAxes& axis) const {
+    const Lane4 squares = {Square(axis[0]), Square(axis[1]), Square(axis[2]), Square(axis[3])};
+    return squares;
+  }
+  /// rho'(s).
+  Lane4 Weight(const LaneAxes& axis, const Lane4& s) const {
+    if (is_cauchy_) {
+      const Lane4 a = Squares(axis);
+      return a / (a + s);
+    }
+    Lane4 weight{};
+    for (std::size_t i = 0; i < kLanes; ++i) weight[i] = Of(axis[i]).Weight(s[i]);
+    return weight;
+  }
+
+ private:
+  static std::size_t At(std::int64_t axis) { return static_cast<std::size_t>(axis); }
+
+  bool is_cauchy_;
+  std::array<RobustKernel, 3> kernels_;
+  std::array<double, 3> a_;
+};
 
 /// The sum of ½ rho(s_i).
 ///
-/// For Cauchy, that is a/2 log prod (1 + s_i/a): one logarithm for many points. A product of
-/// kGroups factors is far from the largest number.
+/// For Cauchy, that is a/2 log prod (1 + s_i/a) for each axis: one logarithm for many points. A
+/// product of kGroups factors is far from the largest number.
 class KernelSum {
  public:
-  explicit KernelSum(const RobustKernel& kernel)
-      : kernel_(kernel), a_(kernel.width * kernel.width), inverse_a_(1.0 / a_) {}
+  explicit KernelSum(const AxisKernels& kernels) : kernels_(kernels) {}
 
-  void Add(const Lane4& s) {
-    if (kernel_.kind == KernelKind::kCauchy) {
-      product_ *= 1.0 + s * inverse_a_;
+  void Add(const LaneAxes& axis, const Lane4& s) {
+    if (kernels_.is_cauchy()) {
+      const Lane4 factor = 1.0 + s / kernels_.Squares(axis);
+      for (std::size_t i = 0; i < kLanes; ++i) product_[At(axis[i])][i] *= factor[i];
       return;
     }
-    for (int i = 0; i < kLanes; ++i) sum_ += kernel_.Rho(s[i]);
+    for (std::size_t i = 0; i < kLanes; ++i) sum_ += kernels_.Of(axis[i]).Rho(s[i]);
   }
   /// To be called after at most kGroups additions.
-  void EndBlock() {
-    for (int i = 0; i < kLanes; ++i) {
-      if (!(product_[i] < 1e100)) {
-        sum_ += std::log(product_[i]) * a_;
-        product_[i] = 1.0;
-      }
-    }
-  }
+  void EndBlock() { TakeLogarithms(1e100); }
   double Total() {
-    for (int i = 0; i < kLanes; ++i) sum_ += std::log(product_[i]) * a_;
-    product_ = Broadcast<Lane4>(1.0);
+    TakeLogarithms(0.0);
     return 0.5 * sum_;
   }
 
  private:
-  RobustKernel kernel_;
-  double a_, inverse_a_;
-  Lane4 product_ = Broadcast<Lane4>(1.0);
+  static std::size_t At(std::int64_t axis) { return static_cast<std::size_t>(axis); }
+
+  /// Adds the logarithms of the products that are not below `bound`.
+  void TakeLogarithms(double bound) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (double& product : product_[axis]) {
+        if (product < bound) continue;
+        sum_ += std::log(product) * kernels_.Square(static_cast<std::int64_t>(axis));
+        product = 1.0;
+      }
+    }
+  }
+
+  const AxisKernels& kernels_;
+  std::array<std::array<double, kLanes>, 3> product_ = {
+      {{1.0, 1.0, 1.0, 1.0}, {1.0, 1.0, 1.0, 1.0}, {1.0, 1.0, 1.0, 1.0}}};
   double sum_ = 0.0;
 };
 
 /// Some points in the begin frame, and their distances r to their planes (m).
 struct LocatedPoints {
   Lane4 alpha, weight;
+  LaneAxes axis;
   StumpffSeries<Lane4> c;
   Vector3<Lane4> p0, n0;
   Lane4 r;
@@ -122,6 +167,7 @@ struct LocatedPoints {
   LocatedPoints(const GatheredPoints& in, const SegmentMotion& m)
       : alpha(in.alpha),
         weight(in.weight),
+        axis(in.axis),
         c(m.StumpffAt(alpha)),
         p0(m.MoveToBegin<Lane4>(alpha, c, in.p)),
         n0(RotateInverse(m.R_begin, in.n)),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 #include "manifolds/eigen_abi.h"
 
@@ -19,6 +20,9 @@ struct RegistrationPoint {
   double normal_variance_rad2 = 0.0;
   /// Size of the plane's voxels, in those of the finest level; 1 for a wide and thin plane.
   double coarseness = 1.0;
+  /// Which of the window's three axes the normal is nearest to: 0, 1 or 2. See
+  /// RegistrationNoise::widening.
+  std::int64_t axis = 0;
 
   /// nᵀx - d, metres, of the point at `x_world`.
   double DistanceToPlane(const Eigen::Vector3d& x_world) const {

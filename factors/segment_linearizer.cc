@@ -12,11 +12,11 @@ using lanes::Broadcast3;
 using lanes::Cross;
 using lanes::Lane4;
 using lanes::Vector3;
+using registration_lanes::AxisKernels;
 using registration_lanes::BlockSum;
 using registration_lanes::Gather;
 using registration_lanes::GatheredPoints;
 using registration_lanes::KernelSum;
-using registration_lanes::KernelWeight;
 using registration_lanes::kGroups;
 using registration_lanes::kLanes;
 using registration_lanes::LocatedPoints;
@@ -25,19 +25,19 @@ namespace {
 
 /// The sums over groups of points.
 struct GroupSums {
-  explicit GroupSums(const RobustKernel& kernel) : cost(kernel) {}
+  explicit GroupSums(const AxisKernels& kernels) : cost(kernels) {}
   BlockSum H;
   Lane4 g[12] = {};
   KernelSum cost;
 };
 
-void LinearizeGroup(const GatheredPoints& points, const SegmentMotion& m,
-                    const RegistrationNoise& noise, int group, GroupSums* sums) {
+void LinearizeGroup(const GatheredPoints& points, const SegmentMotion& m, double sigma_m,
+                    const AxisKernels& kernels, int group, GroupSums* sums) {
   const LocatedPoints at(points, m);
-  const Lane4 information = at.weight / (noise.sigma_m * noise.sigma_m);
+  const Lane4 information = at.weight / (sigma_m * sigma_m);
   const Lane4 s = information * at.r * at.r;
-  sums->cost.Add(s);
-  const Lane4 w = information * KernelWeight(noise.kernel, s);
+  sums->cost.Add(at.axis, s);
+  const Lane4 w = information * kernels.Weight(at.axis, s);
 
   // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x
   // theta].
@@ -93,10 +93,12 @@ void SegmentLinearizer::Sum::Add(const Sum& other) {
 
 SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* points,
                                                     size_t count) const {
-  GroupSums sums(noise_.kernel);
+  const AxisKernels kernels(noise_);
+  GroupSums sums(kernels);
   int group = 0;
   for (size_t first = 0; first < count; first += kLanes) {
-    LinearizeGroup(Gather(points + first, count - first), motion_, noise_, group++, &sums);
+    LinearizeGroup(Gather(points + first, count - first), motion_, noise_.sigma_m, kernels, group++,
+                   &sums);
     if (group < kGroups && first + kLanes < count) continue;
     sums.H.AddGroups(std::exchange(group, 0));
     sums.cost.EndBlock();
@@ -111,11 +113,12 @@ SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* poi
 }
 
 double SegmentLinearizer::Cost(const RegistrationPoint* points, size_t count) const {
-  KernelSum cost(noise_.kernel);
+  const AxisKernels kernels(noise_);
+  KernelSum cost(kernels);
   const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
   for (size_t first = 0; first < count; first += kLanes) {
     const LocatedPoints at(Gather(points + first, count - first), motion_);
-    cost.Add(at.weight * information * at.r * at.r);
+    cost.Add(at.axis, at.weight * information * at.r * at.r);
     cost.EndBlock();
   }
   return cost.Total();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "factors/registration_point.h"
@@ -17,6 +20,12 @@ struct RegistrationNoise {
   double sigma_m = 0.1;
   /// Its width is in units of sigma: a kernel of c metres has width c / sigma.
   RobustKernel kernel{};
+  /// For points whose normal is nearest to one of three axes, it is so many times as wide.
+  std::array<double, 3> widening = {1.0, 1.0, 1.0};
+
+  RobustKernel KernelOf(std::int64_t axis) const {
+    return {kernel.kind, kernel.width * widening[static_cast<std::size_t>(axis)]};
+  }
 };
 
 /// The registration cost of one segment around a state: E(xi) ~ cost + gᵀxi + ½ xiᵀH xi with

@@ -60,13 +60,15 @@ RegistrationNormalEquations SumOfPlainFactors(const std::vector<RegistrationPoin
   ceres::Problem::Options options;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  RobustKernelLoss loss(noise.kernel);
+  RobustKernelLoss losses[3] = {RobustKernelLoss(noise.KernelOf(0)),
+                                RobustKernelLoss(noise.KernelOf(1)),
+                                RobustKernelLoss(noise.KernelOf(2))};
   ceres::Problem problem(options);
   problem.AddParameterBlock(begin.data(), 7, &manifold);
   problem.AddParameterBlock(end.data(), 7, &manifold);
   for (const RegistrationPoint& point : points) {
-    problem.AddResidualBlock(new PointToPlaneCost(point, noise.sigma_m), &loss, begin.data(),
-                             end.data());
+    problem.AddResidualBlock(new PointToPlaneCost(point, noise.sigma_m), &losses[point.axis],
+                             begin.data(), end.data());
   }
   RegistrationNormalEquations sum;
   std::vector<double> gradient;
@@ -94,7 +96,7 @@ TEST_P(SegmentRegistration, EqualsOneFactorAPointInCostGradientAndHessian) {
     const SE3 end = Plus(begin, random.Tangent(angle, 0.5));
     for (int count : {0, 1, 3, 4, 30, 257}) {
       const auto points = RandomSegment(&random, begin, end, count, 0.2);
-      const RegistrationNoise noise{0.1, {GetParam(), 2.0}};
+      const RegistrationNoise noise{0.1, {GetParam(), 2.0}, {1.0, 2.0, 0.5}};
       const auto plain = SumOfPlainFactors(points, begin, end, noise);
       const auto condensed = LinearizeSegment(points, begin, end, noise);
       EXPECT_NEAR(condensed.cost, plain.cost, 1e-9 * (1 + plain.cost));
@@ -128,7 +130,7 @@ TEST(SegmentRegistration, GradientIsTheDerivativeOfTheRobustCost) {
   const SE3 begin = random.Pose();
   const SE3 end = Plus(begin, random.Tangent(0.3, 0.5));
   const auto points = RandomSegment(&random, begin, end, 100, 0.3);
-  const RegistrationNoise noise{0.1, {KernelKind::kCauchy, 2.0}};
+  const RegistrationNoise noise{0.1, {KernelKind::kCauchy, 2.0}, {1.0, 2.0, 0.5}};
   const auto at = LinearizeSegment(points, begin, end, noise);
   const double h = 1e-6;
   for (int i = 0; i < 12; ++i) {
@@ -147,7 +149,7 @@ TEST(SegmentRegistration, CostAloneEqualsTheCostOfTheLinearization) {
   const SE3 begin = random.Pose();
   const SE3 end = Plus(begin, random.Tangent(0.3, 0.5));
   const auto points = RandomSegment(&random, begin, end, 61, 0.3);
-  const RegistrationNoise noise{0.1, {KernelKind::kCauchy, 2.0}};
+  const RegistrationNoise noise{0.1, {KernelKind::kCauchy, 2.0}, {1.0, 2.0, 0.5}};
   const SegmentLinearizer linearizer(begin, end, noise);
   EXPECT_NEAR(linearizer.Cost(points.data(), points.size()),
               linearizer.Linearize(points.data(), points.size()).cost, 1e-9);

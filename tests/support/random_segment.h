@@ -25,6 +25,7 @@ inline std::vector<RegistrationPoint> RandomSegment(Random* random, const SE3& b
   for (int i = 0; i < count; ++i) {
     const double alpha = i == 0 ? 0.0 : i == 1 ? 1.0 : random->Uniform(0, 1);
     points.push_back(RandomPoint(random, alpha));
+    points.back().axis = i % 3;
     points.back().offset_m =
         points.back().normal_world.dot(Interpolate(begin, end, alpha) * points.back().p_body_m) +
         random->Gaussian(spread_m);

@@ -19,7 +19,7 @@ inline Window MakeTestWindow(unsigned seed, int points_per_segment = 300) {
   const Vector6d velocity = random.Tangent(0.05, 0.1);
   Window window;
   window.prior = MakeAnchor(Plus(truth[0], random.Tangent(0.001, 0.002)), 0.01, 0.01);
-  window.noise = {0.1, {KernelKind::kCauchy, 2.0}};
+  window.noise = {0.1, {KernelKind::kCauchy, 2.0}, {1.0, 1.5, 0.7}};
   window.T_world_begin = Plus(truth[0], random.Tangent(0.01, 0.03));
   for (int k = 0; k < 4; ++k) {
     truth.push_back(Plus(truth.back(), velocity + random.Tangent(0.002, 0.003)));
@@ -38,6 +38,7 @@ inline Window MakeTestWindow(unsigned seed, int points_per_segment = 300) {
       point.p_body_m = random.Vector(1, 20);
       point.alpha = random.Uniform(0, 1);
       point.normal_world = random.Direction();
+      point.axis = i % 3;
       const double outlier = random.Uniform(0, 1) < 0.1 ? random.Uniform(-1, 1) : 0.0;
       const SE3 T = Interpolate(truth[truth.size() - 2], truth.back(), point.alpha);
       point.offset_m = point.normal_world.dot(T * point.p_body_m) + random.Gaussian(0.02) + outlier;

@@ -4,6 +4,9 @@
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/solver.h>
 
+#include <array>
+#include <cstddef>
+
 #include "core/comparison/forms/point_to_plane_autodiff.h"
 #include "core/comparison/forms/segment_residuals.h"
 #include "core/odometry/solvers/ceres_blocks.h"
@@ -42,11 +45,14 @@ ceres::Solver::Options MakeSolverOptions(const CeresFormOptions& form, int steps
 
 /// The registration of segment k in another form.
 void AddRegistration(const CeresFormOptions& form, const Window& window, int k,
-                     ceres::LossFunction* loss, CeresBlocks* blocks) {
+                     std::array<RobustKernelLoss, 3>* losses, CeresBlocks* blocks) {
   const std::vector<RegistrationPoint>& points =
       window.segments[static_cast<std::size_t>(k)].points;
   if (points.empty()) return;
   const double sigma_m = window.noise.sigma_m;
+  const auto loss_of = [&](const RegistrationPoint& point) {
+    return &(*losses)[static_cast<std::size_t>(point.axis)];
+  };
   switch (form.registration) {
     case RegistrationForm::kPrepared:  // The same, but for CeresSolver's way to compute it.
     case RegistrationForm::kCondensed:
@@ -57,14 +63,14 @@ void AddRegistration(const CeresFormOptions& form, const Window& window, int k,
       break;
     case RegistrationForm::kPoint:
       for (const RegistrationPoint& point : points) {
-        blocks->AddRegistration(new PointToPlaneCost(point, sigma_m), loss, k);
+        blocks->AddRegistration(new PointToPlaneCost(point, sigma_m), loss_of(point), k);
       }
       break;
     case RegistrationForm::kPointAutodiff:
       for (const RegistrationPoint& point : points) {
         blocks->AddRegistration(new ceres::AutoDiffCostFunction<PointToPlaneFunctor, 1, 7, 7>(
                                     new PointToPlaneFunctor{point, sigma_m}),
-                                loss, k);
+                                loss_of(point), k);
       }
       break;
   }
@@ -79,10 +85,13 @@ SolveSummary CeresFormSolver::Solve(Window* window) {
   PrepareRegistration prepare(&poses, &evaluator_);
   prepare.Begin(window, options_.iterations_per_round);
   if (options_.iterations_per_round == 1) prepare.PrepareForEvaluation(true, true);
-  RobustKernelLoss loss(window->noise.kernel);
+  const RegistrationNoise& noise = window->noise;
+  std::array<RobustKernelLoss, 3> losses = {RobustKernelLoss(noise.KernelOf(0)),
+                                            RobustKernelLoss(noise.KernelOf(1)),
+                                            RobustKernelLoss(noise.KernelOf(2))};
   CeresBlocks blocks(&poses, nullptr);
   for (int k = 0; k < window->size(); ++k) {
-    AddRegistration(form_, *window, k, &loss, &blocks);
+    AddRegistration(form_, *window, k, &losses, &blocks);
     blocks.AddMotion(window->segments[static_cast<std::size_t>(k)].motion, k);
   }
   blocks.AddPrior(window->prior);

@@ -20,13 +20,14 @@ bool SegmentResidualsCost::Evaluate(double const* const* parameters, double* res
   Eigen::Matrix<double, Eigen::Dynamic, 12> J(jacobians == nullptr ? 0 : num_residuals(), 12);
   Eigen::Matrix<double, 1, 12> wrt_poses;
   for (int i = 0; i < num_residuals(); ++i) {
-    const double r =
-        EvaluatePointToPlane((*points_)[static_cast<std::size_t>(i)], noise_.sigma_m, poses[0],
-                             poses[1], jacobians == nullptr ? nullptr : &wrt_poses);
-    const double root = std::sqrt(noise_.kernel.Rho(r * r));
+    const RegistrationPoint& point = (*points_)[static_cast<std::size_t>(i)];
+    const double r = EvaluatePointToPlane(point, noise_.sigma_m, poses[0], poses[1],
+                                          jacobians == nullptr ? nullptr : &wrt_poses);
+    const RobustKernel kernel = noise_.KernelOf(point.axis);
+    const double root = std::sqrt(kernel.Rho(r * r));
     residuals[i] = std::copysign(root, r);
     if (jacobians == nullptr) continue;
-    const double scale = root > 0.0 ? noise_.kernel.Weight(r * r) * std::abs(r) / root : 1.0;
+    const double scale = root > 0.0 ? kernel.Weight(r * r) * std::abs(r) / root : 1.0;
     J.row(i) = scale * wrt_poses;
   }
   if (jacobians != nullptr) WriteJacobians(poses, J, jacobians);

@@ -12,7 +12,7 @@ struct RegistrationOptions {
   double points_per_error = 10.0;
   KernelKind kernel = KernelKind::kCauchy;
   double kernel_m = 0.1;
-  double kernel_in_spreads = 3.0;
+  double kernel_in_spreads = 1.5;
 
   template <typename Describer>
   void Describe(Describer& d) {
@@ -28,10 +28,10 @@ struct RegistrationOptions {
                         {"tukey", KernelKind::kTukey}},
       "Robust kernel on that distance.");
     d(OptionFor::kExperts, "kernel_m", kernel_m, Range<double>{1e-3, 100.0},
-      "Width of the kernel, at most.");
+      "Width of the kernel, if it is not fitted; else at most three times that.");
     d(OptionFor::kExperts, "kernel_in_spreads", kernel_in_spreads, Range<double>{0.0, 100.0},
-      "The kernel is so many times as wide as the distances of the points are spread, but "
-      "not narrower than sigma_m; 0 makes it always kernel_m wide.");
+      "In each direction the kernel is so many times as wide as the distances of those points are "
+      "spread that hold it, but not narrower than sigma_m; 0 makes it always kernel_m wide.");
   }
 };
 

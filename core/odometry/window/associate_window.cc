@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/odometry/window/fit_kernel.h"
+
 namespace trajlo {
 
 int AssociateWindow(const MapPyramid& map, const StepSize& tolerance, ThreadPool* threads,
@@ -29,7 +31,9 @@ int AssociateWindow(const MapPyramid& map, const StepSize& tolerance, ThreadPool
   threads->ParallelFor(searched.size(), [&](std::size_t k) {
     Segment& segment = window->segments[k];
     searched[k] = segment.association.Finish(&segment.points);
-    if (searched[k] > 0) segment.linearization.reset();
+    if (searched[k] == 0) return;
+    AssignAxes(window->kernel_axes, &segment.points);
+    segment.linearization.reset();
   });
   int total = 0;
   for (const int count : searched) total += count;

@@ -1,31 +1,125 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window/fit_kernel.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
-#include "core/odometry/window/point_scatter.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
 
 /// A smaller change is not worth a new linearisation of all segments.
-constexpr double kSmallChange = 0.05;
+constexpr double kSmallChange = 0.1;
+/// The axes stay while one of them has no more information than so many times the least.
+constexpr double kNearlyLeast = 1.25;
+/// About so many points are asked: of a segment, for the axes; of an axis, for its width.
+constexpr std::size_t kAskedOfSegment = 128;
+constexpr std::size_t kAskedOfAxis = 128;
+/// Fewer points have no scatter.
+constexpr std::size_t kFewest = 5;
+/// Of normally distributed values: their standard deviation in medians of their sizes.
+constexpr double kSigmaOfMedian = 1.4826;
+constexpr double kWidestInKernels = 3.0;
+
+/// Of some points: sum w n nᵀ.
+Eigen::Matrix3d InformationOfNormals(const Window& window) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Segment& segment : window.segments) {
+    const std::size_t stride = 1 + segment.points.size() / kAskedOfSegment;
+    for (std::size_t i = 0; i < segment.points.size(); i += stride) {
+      const RegistrationPoint& point = segment.points[i];
+      sum += point.weight * point.normal_world * point.normal_world.transpose();
+    }
+  }
+  return sum;
+}
+
+void ForgetLinearizations(Window* window) {
+  for (Segment& segment : window->segments) segment.linearization.reset();
+}
+
+/// Turns the axes to the principal ones, if the direction with the least information is not among
+/// them any more.
+void UpdateAxes(Window* window) {
+  const Eigen::Matrix3d information = InformationOfNormals(*window);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
+  const Eigen::Matrix3d& axes = window->kernel_axes;
+  const double least = (axes.transpose() * information * axes).diagonal().minCoeff();
+  if (!(least > kNearlyLeast * eigen.eigenvalues()[0])) return;
+  window->kernel_axes = eigen.eigenvectors();
+  for (Segment& segment : window->segments) AssignAxes(window->kernel_axes, &segment.points);
+  ForgetLinearizations(window);
+}
+
+/// A distance in the units of the kernel, and the weight with which it counts.
+using WeighedDistance = std::pair<double, double>;
+
+/// Of some points of each axis.
+std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window) {
+  std::array<std::size_t, 3> stride = {};
+  for (const Segment& segment : window.segments) {
+    for (const RegistrationPoint& point : segment.points) {
+      ++stride[static_cast<std::size_t>(point.axis)];
+    }
+  }
+  for (std::size_t& count : stride) count = 1 + count / kAskedOfAxis;
+  std::array<std::size_t, 3> to_pass = {};
+  std::array<std::vector<WeighedDistance>, 3> distances;
+  for (int k = 0; k < window.size(); ++k) {
+    const Segment& segment = window.segments[static_cast<std::size_t>(k)];
+    const SegmentMotion motion(window.Pose(k), segment.T_world_end);
+    for (const RegistrationPoint& point : segment.points) {
+      const auto axis = static_cast<std::size_t>(point.axis);
+      if (to_pass[axis]-- > 0) continue;
+      to_pass[axis] = stride[axis] - 1;
+      const double distance_m = point.DistanceToPlane(motion.ToWorld(point.alpha, point.p_body_m));
+      distances[axis].emplace_back(std::sqrt(point.weight) * std::abs(distance_m), point.weight);
+    }
+  }
+  return distances;
+}
+
+/// Half of the weight has no larger distance.
+double WeightedMedian(std::vector<WeighedDistance>* distances) {
+  std::sort(distances->begin(), distances->end());
+  double left = 0.0;
+  for (const WeighedDistance& distance : *distances) left += 0.5 * distance.second;
+  for (const WeighedDistance& distance : *distances) {
+    left -= distance.second;
+    if (left <= 0.0) return distance.first;
+  }
+  return distances->back().first;
+}
 
 }  // namespace
 
 void FitKernel(const RegistrationOptions& options, Window* window) {
   const bool has_kernel = window->noise.kernel.kind != KernelKind::kNone;
   if (!has_kernel || options.kernel_in_spreads == 0.0) return;
-  const double scatter_m = WeightedPointScatter(*window);
-  if (scatter_m == 0.0) return;
-  const double width_m =
-      std::min(std::max(options.kernel_in_spreads * scatter_m, options.sigma_m), options.kernel_m);
-  double& width = window->noise.kernel.width;
-  const double change = width_m / window->noise.sigma_m - width;
-  if (std::abs(change) <= kSmallChange * width) return;
-  width += change;
-  for (Segment& segment : window->segments) segment.linearization.reset();
+  UpdateAxes(window);
+  auto distances = DistancesByAxis(*window);
+  for (std::size_t axis = 0; axis < distances.size(); ++axis) {
+    if (distances[axis].size() < kFewest) continue;
+    const double spread_m = kSigmaOfMedian * WeightedMedian(&distances[axis]);
+    const double width_m = std::clamp(options.kernel_in_spreads * spread_m, options.sigma_m,
+                                      kWidestInKernels * options.kernel_m);
+    double& widening = window->noise.widening[axis];
+    const double change = width_m / options.kernel_m - widening;
+    if (std::abs(change) <= kSmallChange * widening) continue;
+    widening += change;
+    ForgetLinearizations(window);
+  }
+}
+
+void AssignAxes(const Eigen::Matrix3d& axes_world, std::vector<RegistrationPoint>* points) {
+  for (RegistrationPoint& point : *points) {
+    (axes_world.transpose() * point.normal_world).cwiseAbs().maxCoeff(&point.axis);
+  }
 }
 
 }  // namespace trajlo

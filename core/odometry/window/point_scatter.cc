@@ -19,32 +19,20 @@ constexpr std::size_t kAsked = 128;
 /// Of normally distributed values: their standard deviation in medians of their sizes.
 constexpr double kSigmaOfMedian = 1.4826;
 
-/// Of f(point, distance_m).
-template <typename F>
-double ScatterOf(const Window& window, F f) {
+}  // namespace
+
+double PointScatter(const Window& window) {
   std::vector<double> sampled;
   for (int k = 0; k < window.size(); ++k) {
     const Segment& segment = window.segments[static_cast<std::size_t>(k)];
     ForEachDistance(segment.points, SegmentMotion(window.Pose(k), segment.T_world_end),
                     1 + segment.points.size() / kAsked,
-                    [&](const RegistrationPoint& point, double distance_m) {
-                      sampled.push_back(std::abs(f(point, distance_m)));
+                    [&](const RegistrationPoint&, double distance_m) {
+                      sampled.push_back(std::abs(distance_m));
                     });
   }
   if (sampled.size() < kFewest) return 0.0;
   return kSigmaOfMedian * UpperMedian(std::move(sampled));
-}
-
-}  // namespace
-
-double PointScatter(const Window& window) {
-  return ScatterOf(window, [](const RegistrationPoint&, double distance_m) { return distance_m; });
-}
-
-double WeightedPointScatter(const Window& window) {
-  return ScatterOf(window, [](const RegistrationPoint& point, double distance_m) {
-    return std::sqrt(point.weight) * distance_m;
-  });
 }
 
 }  // namespace trajlo

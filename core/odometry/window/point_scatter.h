@@ -15,7 +15,4 @@ namespace trajlo {
 /// points are asked, which tell nothing.
 double PointScatter(const Window& window);
 
-/// The same, with each distance times sqrt(weight_i): in the units of the robust kernel.
-double WeightedPointScatter(const Window& window);
-
 }  // namespace trajlo

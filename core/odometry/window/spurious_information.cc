@@ -97,6 +97,7 @@ SpuriousInformation SpuriousInformationOf(const std::vector<RegistrationPoint>& 
                                           const RegistrationNoise& noise) {
   const SegmentMotion motion(T_begin, T_end);
   const double information = 1.0 / (noise.sigma_m * noise.sigma_m);
+  const registration_lanes::AxisKernels kernels(noise);
   SpuriousInformation spurious;
   JacobianProducts along_normals, no_surface, by_place[SpuriousInformation::kGroups];
   Lane4 a_yy[4] = {};
@@ -104,7 +105,7 @@ SpuriousInformation SpuriousInformationOf(const std::vector<RegistrationPoint>& 
     const std::size_t count = std::min<std::size_t>(kLanes, points.size() - first);
     const LocatedPoints at(registration_lanes::Gather(&points[first], count), motion);
     const Lane4 weight = information * at.weight;
-    const Lane4 w = weight * registration_lanes::KernelWeight(noise.kernel, weight * at.r * at.r);
+    const Lane4 w = weight * kernels.Weight(at.axis, weight * at.r * at.r);
     const PointVectors vectors(at, motion);
     for (std::size_t i = 0; i < count; ++i) {
       const double variance = points[first + i].normal_variance_rad2;

@@ -33,7 +33,7 @@ TEST_P(SegmentResiduals, HasTheCostAndTheGradientOfTheCondensedForm) {
   const SE3 begin = random.Pose();
   const SE3 end = Plus(begin, random.Tangent(0.1, 0.3));
   const auto points = RandomSegment(&random, begin, end, 57, 0.2);
-  const RegistrationNoise noise{0.1, {GetParam(), 2.0}};
+  const RegistrationNoise noise{0.1, {GetParam(), 2.0}, {1.0, 2.0, 0.5}};
   const SegmentResidualsCost factor(&points, noise);
   Eigen::MatrixXd J(57, 12);
   J << TangentJacobian(factor, {begin, end}, 0), TangentJacobian(factor, {begin, end}, 1);

@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(MovingStart, InAFlight,
                          ::testing::Values(Start{"courtyard_os1_16", 1},
                                            Start{"courtyard_os1_16", 3},
                                            Start{"hall_os1_16", 1, 2.0},
-                                           Start{"hall_os1_16", 2, 2.0}, Start{"facade_os1_16", 4},
+                                           Start{"hall_os1_16", 2, 2.0}, Start{"facade_os1_16", 2},
                                            Start{"facade_os1_16", 3}));
 
 }  // namespace

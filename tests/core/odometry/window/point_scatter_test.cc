@@ -20,13 +20,12 @@ TEST(PointScatter, HardlyFeelsOutliers) {
   EXPECT_NEAR(PointScatter(MakeNoisyWindow(0.05, 0.15)), 0.059, 0.008);
 }
 
-TEST(PointScatter, OnlyTheWeightedOneAsksForWeights) {
+TEST(PointScatter, AsksForNoWeights) {
   Window window = MakeNoisyWindow(0.05);
   for (Segment& segment : window.segments) {
     for (RegistrationPoint& point : segment.points) point.weight = 0.25;
   }
   EXPECT_NEAR(PointScatter(window), 0.05, 0.005);
-  EXPECT_DOUBLE_EQ(WeightedPointScatter(window), 0.5 * PointScatter(window));
 }
 
 TEST(PointScatter, IsUnknownWhereFewPointsTell) {
