@@ -76,14 +76,12 @@ inline GatheredPoints Gather(const RegistrationPoint* points, std::size_t count,
 /// The kernels of the three axes.
 class AxisKernels {
  public:
-  explicit AxisKernels(const RegistrationNoise& noise) : is_cauchy_(IsCauchy(noise)) {
+  explicit AxisKernels(const RegistrationNoise& noise)
+      : is_cauchy_(noise.kernel.kind == KernelKind::kCauchy) {
     for (std::size_t i = 0; i < 3; ++i) {
       kernels_[i] = noise.KernelOf(static_cast<std::int64_t>(i));
       a_[i] = kernels_[i].width * kernels_[i].width;
     }
-  }
-  static bool IsCauchy(const RegistrationNoise& noise) {
-    return noise.kernel.kind == KernelKind::kCauchy;
   }
   bool is_cauchy() const { return is_cauchy_; }
 

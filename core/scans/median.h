@@ -7,6 +7,10 @@
 
 namespace trajlo {
 
+/// The standard deviation of normal noise, in medians of its sizes (P. Huber, Robust Statistics,
+/// 1981).
+inline constexpr double kSigmaOfMedian = 1.4826;
+
 /// Of an even number of values the larger of the two in the middle; 0 of none.
 template <typename T>
 T UpperMedian(std::vector<T> values) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/scans/median.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
@@ -22,8 +23,6 @@ constexpr std::size_t kAskedOfSegment = 128;
 constexpr std::size_t kAskedOfAxis = 128;
 /// Fewer points have no scatter.
 constexpr std::size_t kFewest = 5;
-/// Of normally distributed values: their standard deviation in medians of their sizes.
-constexpr double kSigmaOfMedian = 1.4826;
 constexpr double kWidestInKernels = 3.0;
 
 /// Of some points: sum w n nᵀ.

@@ -16,8 +16,6 @@ namespace {
 constexpr std::size_t kFewest = 20;
 /// Of each segment about so many are asked.
 constexpr std::size_t kAsked = 128;
-/// Of normally distributed values: their standard deviation in medians of their sizes.
-constexpr double kSigmaOfMedian = 1.4826;
 
 }  // namespace
 

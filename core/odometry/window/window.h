@@ -51,7 +51,8 @@ struct Window {
   std::vector<Segment> segments;  ///< Oldest first.
   MarginalizationPrior prior;
   RegistrationNoise noise;
-  /// Each direction has a kernel of its own: of a point, the column that its normal is nearest to.
+  /// Columns: the directions with a kernel each. RegistrationPoint::axis is the one that a normal
+  /// is nearest to; see FitKernel.
   Eigen::Matrix3d kernel_axes = Eigen::Matrix3d::Identity();
   /// Velocity at the begin of a window that has no segments yet, [rho; theta] per second, body
   /// frame.
