@@ -20,7 +20,7 @@ struct RegistrationNoise {
   double sigma_m = 0.1;
   /// Its width is in units of sigma: a kernel of c metres has width c / sigma.
   RobustKernel kernel{};
-  /// So many times as wide it is for the points of each RegistrationPoint::axis.
+  /// For the points of each RegistrationPoint::axis the kernel is so many times as wide.
   std::array<double, 3> widening = {1.0, 1.0, 1.0};
 
   RobustKernel KernelOf(std::int64_t axis) const {
