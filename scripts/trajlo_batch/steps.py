@@ -95,15 +95,17 @@ def configured_rig(files):
 
 
 def rig_of(job, output, folder):
-    """Inputs of a run, and the options that say which LiDARs they are and where they sit."""
+    """Inputs of a run, and the options that say which LiDARs they are and where they sit: as a
+    configuration says, or else as they were simulated."""
     options = {}
     lidars = job["lidars"]
+    rig = configured_rig(job["config"])
     if "scenario" in job["recording"]:
-        rig = simulated_rig(output / "truth" / f"{job['sequence']}.yaml")
+        rig = rig or simulated_rig(output / "truth" / f"{job['sequence']}.yaml")
         recording = output / "recordings" / job["sequence"]
         inputs = [recording / f"lidar{i}" for i in range(len(rig))] if len(rig) > 1 else [recording]
         inputs = chosen(inputs, lidars, "in the recording")
-        options["sensor"] = {"T_body_lidar": chosen(rig, lidars, "in the scenario")}
+        options["sensor"] = {"T_body_lidar": chosen(rig, lidars, "in the rig")}
     else:
         inputs = job["recording"]["paths"]
         topics = job["topics"]
@@ -111,7 +113,6 @@ def rig_of(job, output, folder):
             options["input"] = {"topics": chosen(topics, lidars, "topics")}
         else:
             inputs = chosen(inputs, lidars, "in the recording")
-        rig = configured_rig(job["config"])
         if lidars and rig:
             options["sensor"] = {"T_body_lidar": chosen(rig, lidars, "in the configuration")}
     files = list(job["config"])

@@ -43,9 +43,10 @@ class RigTest(FolderTest):
         self.assertEqual(files[-1:] == [str(rig_file)], options is not None)
         return inputs, options
 
-    def simulated(self, lidars):
+    def simulated(self, lidars, config=()):
         self.write("truth/two-seed1.yaml", SCENARIO)
-        return self.rig({"recording": {"scenario": "two"}, "lidars": lidars})
+        return self.rig({"recording": {"scenario": "two"}, "lidars": lidars,
+                         "config": [str(file) for file in config]})
 
     def test_a_simulated_rig_brings_its_extrinsics(self):
         inputs, options = self.simulated([])
@@ -57,6 +58,13 @@ class RigTest(FolderTest):
         inputs, options = self.simulated([1])
         self.assertTrue(inputs[0].endswith("recordings/two-seed1/lidar1"))
         self.assertEqual(options["sensor"]["T_body_lidar"][0]["matrix"][2], [0, 0, 1, 2])
+
+    def test_a_configuration_that_says_where_the_lidars_sit_is_heard(self):
+        config = [self.write("rig_of_two.yaml", TWO_LIDARS), self.write("other.yaml", "{}")]
+        for lidars, expected in (([], [[1, 0, 0], [2, 0, 0]]), ([1], [[2, 0, 0]])):
+            options = self.simulated(lidars, config)[1]
+            self.assertEqual(options["sensor"]["T_body_lidar"],
+                             [{"translation_m": position} for position in expected])
 
     def test_one_of_two_topics_keeps_its_own_extrinsics(self):
         config = self.write("rig_of_two.yaml", TWO_LIDARS)
