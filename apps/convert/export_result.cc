@@ -60,7 +60,7 @@ void ProtectResult(const ConvertRequest& request, const RunResult& result) {
   std::vector<fs::path> read = FilesOfRecording(InputsOf(request, result), result.config.input);
   const ResultFolder files(request.input);
   read.insert(read.end(), {files.trajectory(), files.summary(), files.windows(), files.config(),
-                           files.covariance()});
+                           files.rig(), files.covariance()});
   ProtectInput(read, request.output);
 }
 

@@ -6,6 +6,7 @@
 #include "core/comparison/forms/ceres_form_solver.h"
 #include "core/io/atomic_file.h"
 #include "core/io/point_cloud_writer.h"
+#include "core/io/rig_yaml.h"
 #include "core/report/flag_warnings.h"
 #include "core/report/progress_bar.h"
 #include "core/report/view_ply.h"
@@ -96,7 +97,25 @@ void Run::Write() {
   });
   WritePointCloud(folder_.map(), points, CloudFields::kXyz, IfExists::kReplace);
   summary_->map_points = points.size();
-  if (view_) WriteViewPly(folder_.view(), view_->Deskew(odometry_.trajectory()));
+  if (view_)
+    WriteViewPly(folder_.view(), view_->Deskew(odometry_.trajectory(), odometry_.T_body_lidar()));
+  if (Rig().empty()) return;
+  WriteTextFile(
+      folder_.rig(),
+      RigYaml("Where trajlo_run found the LiDARs to be, for --config=", odometry_.T_body_lidar()),
+      IfExists::kReplace);
+}
+
+/// Where the LiDARs were found to be; empty where nothing was looked for.
+std::vector<LidarPlace> Run::Rig() const {
+  const SegmenterOptions& sensor = request_.config.odometry.segmenter;
+  std::vector<LidarPlace> rig;
+  if (!sensor.learn_extrinsics || sensor.T_body_lidar.size() < 2) return rig;
+  const std::vector<SE3> found = odometry_.T_body_lidar();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    rig.push_back(ComparePlaces(i, sensor.T_body_lidar[i], found[i], odometry_.rig().IsKnown(i)));
+  }
+  return rig;
 }
 
 void Run::Summarise() const {
@@ -126,6 +145,8 @@ void Run::Summarise() const {
     s.path_length_m += (poses[i].T_world_body.t - poses[i - 1].T_world_body.t).norm();
   }
   s.flags = Flags();
+  s.rig = Rig();
+  for (const std::string& warning : RigWarnings(s.rig)) s.warnings.push_back(warning);
   for (const std::string& warning : FlagWarnings(s)) s.warnings.push_back(warning);
   s.estimation_s = 1e-3 * processing_.total_ms();
   if (s.end_ns) {

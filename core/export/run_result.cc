@@ -113,8 +113,9 @@ RunResult ReadRunResult(const fs::path& folder, const ResultOptions& options) {
   RunResult result;
   TakeSummary(files.summary(), &result);
   result.unknown_keys = LoadRecordedConfig(files.config(), &result.config);
-  TakePoses(files.trajectory(), ReadFlags(files.windows()), options, &result);
   std::error_code error;
+  if (fs::exists(files.rig(), error)) LoadConfigFile(files.rig(), &result.config);
+  TakePoses(files.trajectory(), ReadFlags(files.windows()), options, &result);
   if (fs::exists(files.covariance(), error)) {
     result.covariances = ReadCovariances(files.covariance());
   }

@@ -24,7 +24,7 @@ struct ResultOptions {
 struct RunResult {
   /// The recording, as the command line named it.
   std::vector<std::string> inputs;
-  RunConfig config;
+  RunConfig config;  ///< With the extrinsics that were found.
   /// Of config.yaml, those that an older build knew.
   std::vector<std::string> unknown_keys;
   /// The poses of trajectory.tum that count, with the flags of windows.csv; never empty.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/odometry/health/doubt.h"
 #include "core/odometry/health/inlier_watch.h"
@@ -13,6 +14,7 @@
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
 #include "core/odometry/parallel/thread_pool.h"
+#include "core/odometry/rig/rig_calibration.h"
 #include "core/odometry/segments/segment_stream.h"
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/start/beginning.h"
@@ -66,6 +68,9 @@ class Odometry {
   /// The control poses that have left the window (all of them after Finish).
   const Trajectory& trajectory() const { return trajectory_; }
   const MapPyramid& map() const { return map_; }
+  const RigCalibration& rig() const { return rig_; }
+  /// The given extrinsics as they are corrected by now.
+  std::vector<SE3> T_body_lidar() const;
   PointCounts point_counts() const { return segments_.point_counts(); }
   /// What became of scans with odd stamps.
   const TimeReport& time_report() const { return segments_.time_report(); }
@@ -105,6 +110,7 @@ class Odometry {
   const OdometryOptions options_;
   ThreadPool threads_;
   SegmentStream segments_;
+  RigCalibration rig_;
   MapPyramid map_;
   MotionPrior motion_prior_;
   std::unique_ptr<WindowSolver> solver_;

@@ -46,6 +46,7 @@ void Odometry::Start() {
   Beginning beginning = *std::exchange(beginning_, std::nullopt);
   std::vector<SegmentCloud>& segments = beginning.segments;
   if (segments.empty()) return;
+  rig_.Begin(&segments);
   const SegmentCloud interval = JoinSegments(segments);
   const FirstMotion motion = MotionOfFirstInterval(interval, options_.initialization, options_.map,
                                                    options_.registration, &threads_);

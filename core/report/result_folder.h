@@ -32,6 +32,8 @@ class ResultFolder {
   std::filesystem::path flags() const { return path_ / "flags.csv"; }
   /// Only if it was asked for.
   std::filesystem::path covariance() const { return path_ / "covariance.csv"; }
+  /// Where the LiDARs were found to be, if there are several.
+  std::filesystem::path rig() const { return path_ / "rig.yaml"; }
   std::filesystem::path config() const { return path_ / "config.yaml"; }
   std::filesystem::path summary() const { return path_ / "run.json"; }
 
@@ -40,7 +42,8 @@ class ResultFolder {
 
  private:
   std::vector<std::filesystem::path> Files() const {
-    return {summary(), trajectory(), map(), view(), windows(), flags(), covariance(), config()};
+    return {summary(), trajectory(), map(),        view(),  windows(),
+            flags(),   rig(),        covariance(), config()};
   }
 
   std::filesystem::path path_;

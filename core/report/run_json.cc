@@ -66,6 +66,21 @@ Json FlaggedJson(const PoseFlags& flags) {
   return json;
 }
 
+Json RigJson(const std::vector<LidarPlace>& rig) {
+  Json json = Json::array();
+  for (const LidarPlace& place : rig) {
+    const SE3& T = place.T_body_lidar;
+    json.push_back({{"lidar", place.lidar},
+                    {"T_body_lidar",
+                     {{"translation_m", {T.t.x(), T.t.y(), T.t.z()}},
+                      {"rotation", {T.q.x(), T.q.y(), T.q.z(), T.q.w()}}}},
+                    {"moved_m", place.moved_m},
+                    {"turned_rad", place.turned_rad},
+                    {"known", place.is_known}});
+  }
+  return json;
+}
+
 Json ResultJson(const RunSummary& s) {
   return {{"begin_s", SecondsOrNull(s.begin_ns)},
           {"end_s", SecondsOrNull(s.end_ns)},
@@ -76,7 +91,8 @@ Json ResultJson(const RunSummary& s) {
           {"path_length_m", s.path_length_m},
           {"distance_to_start_m", s.distance_to_start_m},
           {"lost_at_s", SecondsOrNull(s.lost_at_ns)},
-          {"map_points", s.map_points}};
+          {"map_points", s.map_points},
+          {"rig", RigJson(s.rig)}};
 }
 
 Json WindowsJson(const WindowTotals& w) {

@@ -136,7 +136,8 @@ void ScanSampler::DropEveryOther() {
   }
 }
 
-std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory) const {
+std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory,
+                                            const std::vector<SE3>& T_body_lidar) const {
   const auto turn_rad = static_cast<float>(segmenter_.vertical_correction_deg * M_PI / 180.0);
   PlaceAlong place_along(trajectory);
   std::vector<WorldPoint> points;
@@ -148,9 +149,8 @@ std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory) const 
     for (const Kept& kept : moment.points) {
       if (!place_along.Enter(kept.t_ns)) continue;
       const Eigen::Vector3d p_lidar = TurnUp(kept.p_lidar_m, turn_rad).cast<double>();
-      const Eigen::Vector3d p_body = kept.lidar < segmenter_.T_body_lidar.size()
-                                         ? segmenter_.T_body_lidar[kept.lidar] * p_lidar
-                                         : p_lidar;
+      const Eigen::Vector3d p_body =
+          kept.lidar < T_body_lidar.size() ? T_body_lidar[kept.lidar] * p_lidar : p_lidar;
       points.push_back(
           {place_along.World(kept.t_ns, p_body).cast<float>(), kept.intensity, moment_ns});
     }

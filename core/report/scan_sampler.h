@@ -42,8 +42,10 @@ class ScanSampler {
 
   void Note(const LidarScan& scan);
 
-  /// The points kept so far that `trajectory` covers, deskewed, moment by moment.
-  std::vector<WorldPoint> Deskew(const Trajectory& trajectory) const;
+  /// The points kept so far that `trajectory` covers, deskewed, moment by moment. A LiDAR that
+  /// `T_body_lidar` lacks is the body.
+  std::vector<WorldPoint> Deskew(const Trajectory& trajectory,
+                                 const std::vector<SE3>& T_body_lidar) const;
 
  private:
   struct Kept {

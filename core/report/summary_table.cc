@@ -68,6 +68,8 @@ std::string SummaryTable(const RunSummary& s) {
                                s.windows.Mean(s.windows.rounds)));
   const std::string flagged = Flagged(s.flags);
   if (!flagged.empty()) table += Line("flagged", flagged);
+  const std::string corrections = CorrectionsText(s.rig);
+  if (!corrections.empty()) table += Line("rig", "corrected " + corrections + "; see rig.yaml");
   std::string speed = FormatText("%.1f x real time", s.RealTimeFactor());
   // Nothing where there is too little data to tell.
   if (s.median_ms > 0.0) {

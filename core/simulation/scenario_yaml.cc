@@ -2,6 +2,7 @@
 #include "core/simulation/scenario_yaml.h"
 
 #include "core/io/format_text.h"
+#include "core/io/rig_yaml.h"
 #include "core/simulation/scenario_parameters.h"
 
 namespace trajlo::simulation {
@@ -61,16 +62,10 @@ std::string ScenarioYaml(const Scenario& scenario) {
 }
 
 std::string RigYaml(const Scenario& scenario) {
-  std::string yaml = "# The true extrinsics of " + scenario.name +
-                     ", for trajlo_run --config=\nsensor:\n  T_body_lidar:\n";
-  for (const LidarConfig& lidar : scenario.rig) {
-    const SE3& T = lidar.T_body_lidar;
-    yaml += FormatText(
-        "    - translation_m: [%.17g, %.17g, %.17g]\n"
-        "      rotation: [%.17g, %.17g, %.17g, %.17g]\n",
-        T.t.x(), T.t.y(), T.t.z(), T.q.x(), T.q.y(), T.q.z(), T.q.w());
-  }
-  return yaml;
+  std::vector<SE3> T_body_lidar;
+  for (const LidarConfig& lidar : scenario.rig) T_body_lidar.push_back(lidar.T_body_lidar);
+  return trajlo::RigYaml("The true extrinsics of " + scenario.name + ", for trajlo_run --config=",
+                         T_body_lidar);
 }
 
 }  // namespace trajlo::simulation

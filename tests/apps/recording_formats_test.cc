@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The same flight in every form of recording gives the same trajectory, to the byte.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <filesystem>
 #include <string>
@@ -65,6 +65,7 @@ TEST_F(RecordingFormats, TwoLidarsOfDifferentKindsWithTheLayoutsOfTheirDrivers) 
   const std::string expected = Trajectory("pcd", "pcd");
   ASSERT_GT(expected.size(), 1000u);
   EXPECT_TRUE(Trajectory("bag", "bag") == expected);
+  EXPECT_THAT(ReadFile(Path("result/rig.yaml")), ::testing::HasSubstr("T_body_lidar"));
 }
 
 TEST_F(RecordingFormats, TwoLidarsWithBrokenStampsKeepTheOrderInWhichTheyWereRecorded) {

@@ -132,6 +132,21 @@ class MisuseTest(unittest.TestCase):
         placed = trajlo.Odometry({"sensor.T_body_lidar": [{}, {}]})
         placed.add(scan.points, scan.times_s, stamp_ns=scan.stamp_ns, lidar=1)
 
+    def test_extrinsics_that_are_right_stay_where_they_are(self):
+        given = [{"translation_m": [0, 0, 0]}, {"translation_m": [0.5, 0, 0]}]
+        odometry = trajlo.Odometry({"threads": 1, "sensor.T_body_lidar": given})
+        for index in range(8):
+            scan = room_scan(index)
+            odometry.add(scan)
+            odometry.add(trajlo.Scan(scan.points - [0.5, 0, 0], scan.times_s,
+                                     stamp_ns=scan.stamp_ns, lidar=1))
+        odometry.finish()
+        found = odometry.T_body_lidar
+        self.assertEqual(found.shape, (2, 4, 4))
+        np.testing.assert_array_equal(found[0], np.eye(4))
+        np.testing.assert_allclose(found[1, :3, 3], [0.5, 0, 0], atol=5e-3)
+        np.testing.assert_allclose(found[1, :3, :3], np.eye(3), atol=3e-3)
+
     def test_places_of_lidars_that_never_speak_are_mentioned(self):
         with self.assertWarnsRegex(trajlo.TrajloWarning, "has the poses of 2 LiDARs"):
             run_room({"sensor.T_body_lidar": [{}, {}]})

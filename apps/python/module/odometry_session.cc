@@ -179,7 +179,8 @@ std::vector<std::string> OdometrySession::Remarks() const {
   summary.flags = PoseFlags(odometry().trajectory().poses(), odometry().lost_at_ns());
   for (const WindowStatistics& window : windows_) summary.windows.Add(window);
   for (const std::string& warning : FlagWarnings(summary)) remarks.push_back(warning);
-  const std::size_t given = config_.odometry.segmenter.T_body_lidar.size();
+  const std::vector<SE3>& extrinsics = config_.odometry.segmenter.T_body_lidar;
+  const std::size_t given = extrinsics.size();
   if (given > 1 && newest_lidar_ + 1 < static_cast<int>(given)) {
     remarks.push_back("sensor.T_body_lidar has the poses of " + std::to_string(given) +
                       " LiDARs, but no scan came with a larger number than " +

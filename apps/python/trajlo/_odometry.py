@@ -122,6 +122,11 @@ class Odometry:
         return self._session.point_counts()
 
     @property
+    def T_body_lidar(self) -> numpy.ndarray:
+        """Where the LiDARs of sensor.T_body_lidar are, as corrected by now: (N, 4, 4)."""
+        return self._session.T_body_lidar()
+
+    @property
     def lost_at_ns(self) -> Optional[int]:
         """When the estimator got lost, if it did."""
         return self._session.lost_at_ns()

@@ -24,11 +24,14 @@ struct SegmenterOptions {
   double max_lag_s = 0.5;
   double vertical_correction_deg = 0.0;
   std::vector<SE3> T_body_lidar;
+  bool learn_extrinsics = true;
 
   template <typename Describer>
   void DescribeSensor(Describer& d) {
     d(OptionFor::kUsers, "T_body_lidar", T_body_lidar,
       "Pose of each LiDAR in the body frame. A single LiDAR needs none: it is the body then.");
+    d(OptionFor::kExperts, "learn_extrinsics", learn_extrinsics,
+      "Corrects T_body_lidar of several LiDARs by what they see; false takes it for exact.");
     d(OptionFor::kUsers, "min_range_m", min_range_m, Range<double>{0.0, 1e3},
       "Nearer points are dropped.");
     d(OptionFor::kUsers, "max_range_m", max_range_m, Range<double>{0.1, 1e4},

@@ -77,7 +77,7 @@ int SegmentAssociation::Finish(std::vector<RegistrationPoint>* associated) {
     if (!plane.exists()) continue;
     associated->push_back({points[i].p_body_m.cast<double>(), points[i].alpha, plane.normal_world,
                            plane.offset_m, plane.weight, plane.normal_variance_rad2,
-                           plane.coarseness});
+                           plane.coarseness, 0, points[i].lidar});
   }
   return searched;
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "core/config/edit_distance.h"
+#include "core/io/rig_yaml.h"
 #include "tests/core/config/config_testing.h"
 #include "tests/support/temp_folder.h"
 
@@ -169,6 +170,14 @@ TEST(Config, DumpLoadsBackToTheSameValues) {
   EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].q.coeffs(), q.coeffs());
   EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].t.y(), 1.0 / 3.0);
   EXPECT_EQ(back.odometry.registration.sigma_m, 0.1234567890123456);
+}
+
+TEST(Config, ARigLoadsBackToTheSameValues) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond(0.3, -0.2, 0.7, 0.1).normalized();
+  const RunConfig back = Loaded(RigYaml("two", {{q, {0.1, 1.0 / 3.0, -1e-9}}, SE3()}));
+  ASSERT_EQ(back.odometry.segmenter.T_body_lidar.size(), 2u);
+  EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].q.coeffs(), q.coeffs());
+  EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].t, Eigen::Vector3d(0.1, 1.0 / 3.0, -1e-9));
 }
 
 TEST(Config, ListedKeysCanBeSetToTheirDefaults) {

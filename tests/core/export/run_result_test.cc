@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "core/io/errors.h"
+#include "core/io/rig_yaml.h"
 #include "tests/support/temp_folder.h"
 
 namespace trajlo::testing {
@@ -50,6 +51,14 @@ TEST_F(Result, IsReadWithTimesToTheNanosecondAndFlags) {
   EXPECT_EQ(result.scans_read, 7u);
   EXPECT_TRUE(result.has_control_poses);
   EXPECT_TRUE(result.covariances.empty());
+}
+
+TEST_F(Result, ExtrinsicsThatWereFoundReplaceThoseThatWereGiven) {
+  WriteFile(folder_ / "config.yaml", RigYaml("given", {SE3(), SE3()}));
+  EXPECT_EQ(ReadRunResult(folder_.path()).config.odometry.segmenter.T_body_lidar[1].t.x(), 0.0);
+  WriteFile(folder_ / "rig.yaml",
+            RigYaml("found", {SE3(), SE3(Eigen::Quaterniond::Identity(), {0.01, 0, 0})}));
+  EXPECT_EQ(ReadRunResult(folder_.path()).config.odometry.segmenter.T_body_lidar[1].t.x(), 0.01);
 }
 
 TEST_F(Result, PosesFromWhereItGotLostAreLeftOutUnlessTheyAreWanted) {

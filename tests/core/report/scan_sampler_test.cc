@@ -78,7 +78,7 @@ TEST(ScanSamplerTest, MomentsAreEvenOverARunOfAnyLengthAndTheirNumberIsBounded) 
   for (const int sweeps : {1, 19, 20, 21, 100, 333}) {
     ScanSampler sampler({}, options);
     for (int i = 0; i < sweeps; ++i) sampler.Note(Sweep(i, 16));
-    const auto counts = PointsPerMoment(sampler.Deskew(Drive(0.1 * sweeps)));
+    const auto counts = PointsPerMoment(sampler.Deskew(Drive(0.1 * sweeps), {}));
     EXPECT_LE(counts.size(), 20u);
     EXPECT_GE(counts.size(), std::min<std::size_t>(sweeps, 10));
     std::set<std::int64_t> steps;
@@ -100,7 +100,7 @@ TEST(ScanSamplerTest, AThinnedSweepHasAsManyPointsAsAllowedFromAllRingsAlike) {
   ScanSampler sampler({}, options);
   sampler.Note(Sweep(0));
   std::vector<int> per_ring(kRings);
-  const std::vector<WorldPoint> points = sampler.Deskew(Drive(0.2));
+  const std::vector<WorldPoint> points = sampler.Deskew(Drive(0.2), {});
   for (const WorldPoint& point : points) ++per_ring[static_cast<std::size_t>(point.intensity)];
   EXPECT_THAT(points, SizeIs(800));
   EXPECT_THAT(per_ring, Each(::testing::AllOf(::testing::Ge(40), Le(60))));
@@ -120,7 +120,7 @@ TEST(ScanSamplerTest, FarPointsAreKeptInProportionToTheirRange) {
   rest.Append({kStart_ns, SE3()});
   rest.Append({kStart_ns + kSweep_ns, SE3()});
   int far = 0;
-  for (const WorldPoint& point : sampler.Deskew(rest)) far += point.p_world_m.norm() > 20.0F;
+  for (const WorldPoint& point : sampler.Deskew(rest, {})) far += point.p_world_m.norm() > 20.0F;
   EXPECT_NEAR(far / 300.0, 5.0 / 6.0, 0.05);
 }
 
@@ -130,7 +130,6 @@ TEST(ScanSamplerTest, PointsAreWhereTheyWereMeasuredAlsoWithAnExtrinsicAndATurne
   SE3 T_body_lidar;
   T_body_lidar.q = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY());
   T_body_lidar.t = Eigen::Vector3d(0.1, -0.2, 0.3);
-  segmenter.T_body_lidar = {SE3(), T_body_lidar};
   segmenter.vertical_correction_deg = 0.205;
   const auto too_low_rad = static_cast<float>(0.205 * M_PI / 180.0);
   LidarScan scan;
@@ -146,7 +145,7 @@ TEST(ScanSamplerTest, PointsAreWhereTheyWereMeasuredAlsoWithAnExtrinsicAndATurne
   }
   ScanSampler sampler(segmenter);
   sampler.Note(scan);
-  const std::vector<WorldPoint> points = sampler.Deskew(Drive(0.4));
+  const std::vector<WorldPoint> points = sampler.Deskew(Drive(0.4), {SE3(), T_body_lidar});
   EXPECT_THAT(points, SizeIs(300));
   for (const WorldPoint& point : points) {
     const Eigen::Vector3d& post = posts[static_cast<std::size_t>(point.intensity)];
@@ -165,7 +164,7 @@ TEST(ScanSamplerTest, WhatTheEstimatorDoesNotUseIsNotShown) {
   scan.points[3].t_ns += 10 * kSweep_ns;  // beyond the trajectory
   ScanSampler sampler(segmenter);
   sampler.Note(scan);
-  EXPECT_THAT(sampler.Deskew(Drive(0.2)), SizeIs(kRings - 4));
+  EXPECT_THAT(sampler.Deskew(Drive(0.2), {}), SizeIs(kRings - 4));
 }
 
 std::vector<float> Values(const PointTable& table, const std::string& name) {

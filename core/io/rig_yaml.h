@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "manifolds/se3.h"
+
+namespace trajlo {
+
+/// A configuration with sensor.T_body_lidar, for --config; `comment` becomes its first line.
+std::string RigYaml(const std::string& comment, const std::vector<SE3>& T_body_lidar);
+
+}  // namespace trajlo

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/rig/rig_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/random_poses.h"
+
+namespace trajlo {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using testing::Random;
+using ::testing::SizeIs;
+
+/// A rig in a room of random planes. The error of each LiDAR is what its correction should become.
+class Rig {
+ public:
+  explicit Rig(const std::vector<SE3>& errors, unsigned seed = 1)
+      : random_(seed), errors_(errors), T_world_body_(random_.Pose()) {}
+
+  /// What the segmenter hands out while the body moves by `step`: as the points would be without
+  /// any correction.
+  SegmentCloud See(int points_per_lidar, const Vector6d& step) {
+    SegmentCloud cloud;
+    cloud.begin_ns = t_ns_;
+    cloud.end_ns = t_ns_ += 30'000'000;
+    cloud.lidar_origins_body_m.assign(errors_.size(), Eigen::Vector3d::Zero());
+    T_begin_ = T_world_body_;
+    T_world_body_ = Plus(T_world_body_, step);
+    for (std::size_t l = 0; l < errors_.size(); ++l) {
+      for (int i = 0; i < points_per_lidar; ++i) {
+        const SegmentPoint point = {(errors_[l].Inverse() * random_.Vector(1, 15)).cast<float>(),
+                                    static_cast<float>(random_.Uniform(0, 1)),
+                                    static_cast<std::uint16_t>(l)};
+        cloud.map_points.push_back(point);
+        cloud.registration_points.push_back(point);
+      }
+    }
+    return cloud;
+  }
+
+  /// A window of that segment, at poses that are off by `pose_error`. The planes are those of the
+  /// points of a rig without errors, which `noise_m` moves.
+  Window Register(SegmentCloud cloud, const SE3& pose_error, double noise_m) {
+    Window window;
+    window.noise = {0.1, {KernelKind::kCauchy, 2.0}};
+    window.begin_ns = cloud.begin_ns;
+    window.T_world_begin = T_begin_ * pose_error;
+    Segment segment;
+    segment.T_world_end = T_world_body_ * pose_error;
+    for (const SegmentPoint& seen : cloud.registration_points) {
+      RegistrationPoint point;
+      point.p_body_m = seen.p_body_m.cast<double>();
+      point.alpha = seen.alpha;
+      point.lidar = seen.lidar;
+      point.normal_world = random_.Direction();
+      const SE3 C_left = errors_[seen.lidar] * cloud.rig_corrections[seen.lidar].Inverse();
+      const Eigen::Vector3d p_true = C_left * point.p_body_m;
+      point.offset_m =
+          point.normal_world.dot(Interpolate(T_begin_, T_world_body_, point.alpha) * p_true) +
+          random_.Gaussian(noise_m);
+      segment.points.push_back(point);
+    }
+    segment.cloud = std::move(cloud);
+    segment.registration =
+        LinearizeSegment(segment.points, window.T_world_begin, segment.T_world_end, window.noise);
+    window.segments.push_back(std::move(segment));
+    return window;
+  }
+
+  Random* random() { return &random_; }
+
+ private:
+  Random random_;
+  std::vector<SE3> errors_;
+  SE3 T_world_body_, T_begin_;
+  std::int64_t t_ns_ = 0;
+};
+
+Vector6d Step() {
+  Vector6d step;
+  step << 0.06, 0.0, 0.01, 0.0, 0.0, 0.02;
+  return step;
+}
+
+/// `segments` of a rig, registered at poses that are wrong by some centimetres.
+void LearnFrom(Rig* rig, int segments, double noise_m, RigCalibration* calibration) {
+  for (int i = 0; i < segments; ++i) {
+    SegmentCloud cloud = rig->See(200, Step());
+    calibration->Apply(&cloud);
+    if (i == 0) {
+      std::vector<SegmentCloud> first = {cloud};
+      calibration->Begin(&first);
+      cloud = first.front();
+    }
+    const SE3 pose_error = se3::Exp(rig->random()->Tangent(0.03, 0.01));
+    calibration->Learn(rig->Register(std::move(cloud), pose_error, noise_m));
+  }
+}
+
+void ExpectNear(const SE3& found, const SE3& expected, double tolerance_m, double tolerance_rad) {
+  const Vector6d difference = Minus(found, expected);
+  EXPECT_LT(difference.head<3>().norm(), tolerance_m);
+  EXPECT_LT(difference.tail<3>().norm(), tolerance_rad);
+}
+
+TEST(RigCalibration, FindsErrorsOfCentimetresAndDegreesWhateverThePosesAre) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    Random random(seed);
+    const std::vector<SE3> errors = {SE3(), se3::Exp(random.Tangent(0.05, 0.03)),
+                                     se3::Exp(random.Tangent(0.05, 0.03))};
+    Rig rig(errors, seed);
+    RigCalibration calibration(true);
+    LearnFrom(&rig, 200, 0.01, &calibration);
+    ExpectNear(calibration.Correction(0), SE3(), 1e-12, 1e-12);
+    for (const std::size_t l : {1u, 2u}) {
+      ExpectNear(calibration.Correction(l), errors[l], 0.0005, 0.0001);
+    }
+  }
+}
+
+TEST(RigCalibration, LeavesARigThatIsRightWhereItIs) {
+  Rig rig({SE3(), SE3()});
+  RigCalibration calibration(true);
+  LearnFrom(&rig, 200, 0.01, &calibration);
+  ExpectNear(calibration.Correction(1), SE3(), 0.0005, 0.0001);
+}
+
+/// The pose is unknown, too: on the planes that it sees, the second LiDAR alone agrees with all.
+TEST(RigCalibration, LearnsNothingFromOneLidarAlone) {
+  const SE3 error = se3::Exp(0.02 * Vector6d::Ones());
+  Rig rig({SE3(), error});
+  RigCalibration calibration(true);
+  for (int i = 0; i < 50; ++i) {
+    SegmentCloud cloud = rig.See(200, Step());
+    calibration.Apply(&cloud);
+    std::vector<SegmentCloud> first = {cloud};
+    if (i == 0) calibration.Begin(&first);
+    Window window = rig.Register(std::move(cloud), SE3(), 0.0);
+    Segment& segment = window.segments.front();
+    auto& points = segment.points;
+    points.erase(std::remove_if(points.begin(), points.end(),
+                                [](const RegistrationPoint& point) { return point.lidar == 0; }),
+                 points.end());
+    segment.registration =
+        LinearizeSegment(points, window.T_world_begin, segment.T_world_end, window.noise);
+    calibration.Learn(window);
+  }
+  ExpectNear(calibration.Correction(1), SE3(), 0.002, 0.001);
+}
+
+TEST(RigCalibration, MovesPointsAndOriginsByTheCorrection) {
+  const SE3 error = se3::Exp(0.02 * Vector6d::Ones());
+  Rig rig({SE3(), error});
+  RigCalibration calibration(true);
+  LearnFrom(&rig, 200, 0.0, &calibration);
+  const SegmentCloud seen = rig.See(3, Step());
+  SegmentCloud moved = seen;
+  calibration.Apply(&moved);
+  const SE3 C = calibration.Correction(1);
+  ASSERT_THAT(moved.rig_corrections, SizeIs(2));
+  ExpectNear(moved.rig_corrections[0], SE3(), 1e-15, 1e-15);
+  ExpectNear(moved.rig_corrections[1], C, 1e-15, 1e-15);
+  EXPECT_EQ(moved.lidar_origins_body_m[0], seen.lidar_origins_body_m[0]);
+  EXPECT_LT((moved.lidar_origins_body_m[1] - C * seen.lidar_origins_body_m[1]).norm(), 1e-12);
+  for (std::size_t i = 0; i < seen.registration_points.size(); ++i) {
+    const Eigen::Vector3f p = seen.registration_points[i].p_body_m;
+    const Eigen::Vector3f expected =
+        seen.registration_points[i].lidar == 0 ? p : (C * p.cast<double>()).cast<float>();
+    EXPECT_EQ(moved.registration_points[i].p_body_m, expected);
+    EXPECT_EQ(moved.map_points[i].p_body_m, expected);
+  }
+}
+
+std::vector<int> LidarsOf(const std::vector<SegmentPoint>& points) {
+  std::vector<int> lidars;
+  for (const SegmentPoint& point : points) lidars.push_back(point.lidar);
+  return lidars;
+}
+
+SegmentCloud CloudOf(const std::vector<int>& lidars) {
+  SegmentCloud cloud;
+  cloud.lidar_origins_body_m.assign(2, Eigen::Vector3d::Zero());
+  for (const int lidar : lidars) {
+    cloud.map_points.push_back({Eigen::Vector3f::Ones(), 0.5F, static_cast<std::uint16_t>(lidar)});
+  }
+  cloud.registration_points = cloud.map_points;
+  return cloud;
+}
+
+/// Which of two LiDARs begin the map, where the first segments have these points.
+std::vector<int> BeginsMap(const std::vector<int>& lidars) {
+  RigCalibration calibration(true);
+  std::vector<SegmentCloud> segments = {CloudOf(lidars)};
+  calibration.Apply(&segments.front());
+  calibration.Begin(&segments);
+  EXPECT_EQ(LidarsOf(segments.front().registration_points), lidars);
+  return LidarsOf(segments.front().map_points);
+}
+
+TEST(RigCalibration, TheReferenceIsTheFirstLidarThatSeesEnough) {
+  EXPECT_THAT(BeginsMap({0, 1}), ElementsAre(0));
+  EXPECT_THAT(BeginsMap({1, 1, 0}), ElementsAre(0));
+  EXPECT_THAT(BeginsMap({1, 1, 0, 1}), ElementsAre(1, 1, 1));
+  EXPECT_THAT(BeginsMap({1}), ElementsAre(1));
+  EXPECT_THAT(BeginsMap({}), IsEmpty());
+}
+
+TEST(RigCalibration, PointsEnterTheMapWhenTheirLidarHasSeenItFromEnoughPlaces) {
+  Rig rig({SE3(), SE3()});
+  RigCalibration calibration(true);
+  const auto may_enter = [&] {
+    SegmentCloud cloud = rig.See(10, Step());
+    calibration.Apply(&cloud);
+    return cloud.map_points.size() == cloud.registration_points.size();
+  };
+  LearnFrom(&rig, 10, 0.0, &calibration);
+  EXPECT_FALSE(may_enter());
+  EXPECT_FALSE(calibration.IsKnown(1));
+  LearnFrom(&rig, 10, 0.0, &calibration);
+  EXPECT_TRUE(may_enter());
+  EXPECT_TRUE(calibration.IsKnown(1));
+}
+
+TEST(RigCalibration, ABodyAtRestSeesFromOnePlaceOnly) {
+  Rig rig({SE3(), SE3()});
+  RigCalibration calibration(true);
+  LearnFrom(&rig, 1, 0.0, &calibration);
+  for (int i = 0; i < 1000; ++i) {
+    SegmentCloud cloud = rig.See(10, Vector6d::Zero());
+    calibration.Apply(&cloud);
+    calibration.Learn(rig.Register(std::move(cloud), SE3(), 0.0));
+  }
+  EXPECT_FALSE(calibration.IsKnown(1));
+}
+
+/// While the reference is silent, the map would stand still.
+TEST(RigCalibration, WhereNoOtherPointsAreTheyEnterTheMap) {
+  RigCalibration calibration(true);
+  std::vector<SegmentCloud> segments = {CloudOf({0, 1})};
+  calibration.Apply(&segments.front());
+  calibration.Begin(&segments);
+  SegmentCloud alone = CloudOf({1, 1});
+  calibration.Apply(&alone);
+  EXPECT_THAT(alone.map_points, SizeIs(2));
+}
+
+TEST(RigCalibration, WhereItIsNotToLearnNothingChanges) {
+  Rig rig({SE3(), se3::Exp(0.02 * Vector6d::Ones())});
+  RigCalibration calibration(false);
+  LearnFrom(&rig, 20, 0.0, &calibration);
+  SegmentCloud cloud = rig.See(10, Step());
+  const SegmentCloud seen = cloud;
+  calibration.Apply(&cloud);
+  ExpectNear(calibration.Correction(1), SE3(), 1e-15, 1e-15);
+  ASSERT_THAT(cloud.map_points, SizeIs(seen.map_points.size()));
+  for (std::size_t i = 0; i < seen.map_points.size(); ++i) {
+    EXPECT_EQ(cloud.map_points[i].p_body_m, seen.map_points[i].p_body_m);
+  }
+}
+
+}  // namespace
+}  // namespace trajlo
