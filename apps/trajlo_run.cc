@@ -48,7 +48,7 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
         result/view.ply         some points of some scans, for the 3-D view that draw_run.py makes
         result/windows.csv      what happened in every window
         result/flags.csv        for every pose, whether it can be trusted
-        result/rig.yaml         where several LiDARs were found to be
+        result/rig.yaml         poses and clocks of several LiDARs, as found
         result/config.yaml      all options as they were
         result/run.json         counts, times, warnings, and how the run ended
   trajlo_run flight.bag -o result --config ouster

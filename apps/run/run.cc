@@ -97,25 +97,34 @@ void Run::Write() {
   });
   WritePointCloud(folder_.map(), points, CloudFields::kXyz, IfExists::kReplace);
   summary_->map_points = points.size();
-  if (view_)
-    WriteViewPly(folder_.view(), view_->Deskew(odometry_.trajectory(), odometry_.T_body_lidar()));
-  if (Rig().empty()) return;
-  WriteTextFile(
-      folder_.rig(),
-      RigYaml("Where trajlo_run found the LiDARs to be, for --config=", odometry_.T_body_lidar()),
-      IfExists::kReplace);
+  if (view_) WriteViewPly(folder_.view(), view_->Deskew(odometry_.trajectory(), Rig()));
+  WriteRig();
 }
 
-/// Where the LiDARs were found to be; empty where nothing was looked for.
+/// Where the LiDARs of sensor.T_body_lidar were found to be.
 std::vector<LidarPlace> Run::Rig() const {
-  const SegmenterOptions& sensor = request_.config.odometry.segmenter;
+  const std::vector<SE3>& given = request_.config.odometry.segmenter.T_body_lidar;
   std::vector<LidarPlace> rig;
-  if (!sensor.learn_extrinsics || sensor.T_body_lidar.size() < 2) return rig;
-  const std::vector<SE3> found = odometry_.T_body_lidar();
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    rig.push_back(ComparePlaces(i, sensor.T_body_lidar[i], found[i], odometry_.rig().IsKnown(i)));
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    rig.push_back(CorrectedPlace(i, given[i], request_.config.input.clock_offset_s.Of(i),
+                                 odometry_.rig().Correction(i), odometry_.rig().IsKnown(i)));
   }
   return rig;
+}
+
+/// Of several LiDARs, unless they were taken to be where they were said to be.
+void Run::WriteRig() const {
+  std::vector<SE3> T_body_lidar;
+  std::vector<double> clock_offsets_s;
+  for (const LidarPlace& place : Rig()) {
+    T_body_lidar.push_back(place.T_body_lidar);
+    clock_offsets_s.push_back(place.clock_offset_s);
+  }
+  if (T_body_lidar.size() < 2 || !request_.config.odometry.segmenter.learn_rig) return;
+  WriteTextFile(folder_.rig(),
+                RigYaml("Where trajlo_run found the LiDARs to be, for --config=", T_body_lidar,
+                        clock_offsets_s),
+                IfExists::kReplace);
 }
 
 void Run::Summarise() const {

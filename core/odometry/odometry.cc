@@ -33,7 +33,7 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
                   rig_.Apply(&segment);
                   Take(std::move(segment));
                 }),
-      rig_(options.segmenter.learn_extrinsics),
+      rig_(options.segmenter.learn_rig),
       map_(options.map),
       motion_prior_(options.motion_prior),
       solver_(make_solver(options.solver, &threads_)) {}
@@ -46,14 +46,6 @@ void Odometry::Finish() {
   if (search_ && search_->HasPoints()) Search(true);
   if (beginning_) Start();
   SettleWindow(std::numeric_limits<std::int64_t>::max());
-}
-
-std::vector<SE3> Odometry::T_body_lidar() const {
-  std::vector<SE3> corrected = options_.segmenter.T_body_lidar;
-  for (std::size_t l = 0; l < corrected.size(); ++l) {
-    corrected[l] = rig_.Correction(l) * corrected[l];
-  }
-  return corrected;
 }
 
 void Odometry::Take(SegmentCloud cloud) {
@@ -175,6 +167,7 @@ void Odometry::Leave(WindowStatistics* statistics) {
   Stopwatch watch;
   SettleFront();
   rig_.Learn(window_);
+  segments_.CorrectClocks(rig_.Clocks_s());
   const SE3 T_begin = window_.T_world_begin;
   // The first points agree with nothing.
   const bool is_of_the_world = !support_.was_supported() || MayEnterMap(window_.segments.front());

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "core/odometry/health/doubt.h"
 #include "core/odometry/health/inlier_watch.h"
@@ -69,8 +68,6 @@ class Odometry {
   const Trajectory& trajectory() const { return trajectory_; }
   const MapPyramid& map() const { return map_; }
   const RigCalibration& rig() const { return rig_; }
-  /// The given extrinsics as they are corrected by now.
-  std::vector<SE3> T_body_lidar() const;
   PointCounts point_counts() const { return segments_.point_counts(); }
   /// What became of scans with odd stamps.
   const TimeReport& time_report() const { return segments_.time_report(); }

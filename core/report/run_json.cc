@@ -74,8 +74,10 @@ Json RigJson(const std::vector<LidarPlace>& rig) {
                     {"T_body_lidar",
                      {{"translation_m", {T.t.x(), T.t.y(), T.t.z()}},
                       {"rotation", {T.q.x(), T.q.y(), T.q.z(), T.q.w()}}}},
+                    {"clock_offset_s", place.clock_offset_s},
                     {"moved_m", place.moved_m},
                     {"turned_rad", place.turned_rad},
+                    {"clock_moved_s", place.clock_moved_s},
                     {"known", place.is_known}});
   }
   return json;

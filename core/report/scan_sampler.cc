@@ -137,7 +137,7 @@ void ScanSampler::DropEveryOther() {
 }
 
 std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory,
-                                            const std::vector<SE3>& T_body_lidar) const {
+                                            const std::vector<LidarPlace>& rig) const {
   const auto turn_rad = static_cast<float>(segmenter_.vertical_correction_deg * M_PI / 180.0);
   PlaceAlong place_along(trajectory);
   std::vector<WorldPoint> points;
@@ -147,12 +147,12 @@ std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory,
   for (const auto& [index, moment] : moments_) {
     const std::int64_t moment_ns = *origin_ns_ + index * options_.moment_ns;
     for (const Kept& kept : moment.points) {
-      if (!place_along.Enter(kept.t_ns)) continue;
+      const LidarPlace lidar = kept.lidar < rig.size() ? rig[kept.lidar] : LidarPlace();
+      const std::int64_t t_ns = kept.t_ns + std::llround(1e9 * lidar.clock_moved_s);
+      if (!place_along.Enter(t_ns)) continue;
       const Eigen::Vector3d p_lidar = TurnUp(kept.p_lidar_m, turn_rad).cast<double>();
-      const Eigen::Vector3d p_body =
-          kept.lidar < T_body_lidar.size() ? T_body_lidar[kept.lidar] * p_lidar : p_lidar;
-      points.push_back(
-          {place_along.World(kept.t_ns, p_body).cast<float>(), kept.intensity, moment_ns});
+      const Eigen::Vector3d p_body = lidar.T_body_lidar * p_lidar;
+      points.push_back({place_along.World(t_ns, p_body).cast<float>(), kept.intensity, moment_ns});
     }
   }
   return points;

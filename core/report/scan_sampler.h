@@ -10,6 +10,7 @@
 
 #include "core/odometry/segments/segmenter.h"
 #include "core/odometry/trajectory/trajectory.h"
+#include "core/report/rig_report.h"
 
 namespace trajlo {
 
@@ -42,10 +43,10 @@ class ScanSampler {
 
   void Note(const LidarScan& scan);
 
-  /// The points kept so far that `trajectory` covers, deskewed, moment by moment. A LiDAR that
-  /// `T_body_lidar` lacks is the body.
+  /// The points kept so far that `trajectory` covers, deskewed, moment by moment, with the LiDARs
+  /// where they were found to be; one that is not among them is the body, with the right time.
   std::vector<WorldPoint> Deskew(const Trajectory& trajectory,
-                                 const std::vector<SE3>& T_body_lidar) const;
+                                 const std::vector<LidarPlace>& rig) const;
 
  private:
   struct Kept {

@@ -141,11 +141,12 @@ class MisuseTest(unittest.TestCase):
             odometry.add(trajlo.Scan(scan.points - [0.5, 0, 0], scan.times_s,
                                      stamp_ns=scan.stamp_ns, lidar=1))
         odometry.finish()
-        found = odometry.T_body_lidar
-        self.assertEqual(found.shape, (2, 4, 4))
-        np.testing.assert_array_equal(found[0], np.eye(4))
-        np.testing.assert_allclose(found[1, :3, 3], [0.5, 0, 0], atol=5e-3)
-        np.testing.assert_allclose(found[1, :3, :3], np.eye(3), atol=3e-3)
+        (first, first_s), (second, second_s) = odometry.rig
+        np.testing.assert_array_equal(first, np.eye(4))
+        self.assertEqual(first_s, 0.0)
+        np.testing.assert_allclose(second[:3, 3], [0.5, 0, 0], atol=5e-3)
+        np.testing.assert_allclose(second[:3, :3], np.eye(3), atol=3e-3)
+        self.assertAlmostEqual(second_s, 0.0, delta=3e-3)
 
     def test_places_of_lidars_that_never_speak_are_mentioned(self):
         with self.assertWarnsRegex(trajlo.TrajloWarning, "has the poses of 2 LiDARs"):

@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "apps/python/module/arrays.h"
 #include "apps/python/module/bindings.h"
 #include "apps/python/module/make_scan.h"
 #include "apps/python/module/odometry_session.h"
@@ -37,10 +36,7 @@ void BindOdometry(py::module_* module) {
       .def("covariances", &OdometrySession::Covariances)
       .def("map", &OdometrySession::MapPoints)
       .def("point_counts", &OdometrySession::PointCounts)
-      .def("T_body_lidar",
-           [](const OdometrySession& session) {
-             return PoseArray(session.odometry().T_body_lidar());
-           })
+      .def("rig", &OdometrySession::Rig)
       .def("lost_at_ns",
            [](const OdometrySession& session) { return session.odometry().lost_at_ns(); })
       .def("remarks", &OdometrySession::Remarks)

@@ -162,6 +162,15 @@ py::dict OdometrySession::PointCounts() const {
   return dict;
 }
 
+std::vector<std::pair<py::array_t<double>, double>> OdometrySession::Rig() const {
+  std::vector<std::pair<py::array_t<double>, double>> rig;
+  for (const SE3& given : config_.odometry.segmenter.T_body_lidar) {
+    const LidarCorrection correction = odometry().rig().Correction(rig.size());
+    rig.emplace_back(PoseArray(correction.T_body * given), correction.clock_s);
+  }
+  return rig;
+}
+
 std::vector<std::string> OdometrySession::Remarks() const {
   RunSummary summary;
   summary.times = odometry().time_report();
@@ -179,8 +188,7 @@ std::vector<std::string> OdometrySession::Remarks() const {
   summary.flags = PoseFlags(odometry().trajectory().poses(), odometry().lost_at_ns());
   for (const WindowStatistics& window : windows_) summary.windows.Add(window);
   for (const std::string& warning : FlagWarnings(summary)) remarks.push_back(warning);
-  const std::vector<SE3>& extrinsics = config_.odometry.segmenter.T_body_lidar;
-  const std::size_t given = extrinsics.size();
+  const std::size_t given = config_.odometry.segmenter.T_body_lidar.size();
   if (given > 1 && newest_lidar_ + 1 < static_cast<int>(given)) {
     remarks.push_back("sensor.T_body_lidar has the poses of " + std::to_string(given) +
                       " LiDARs, but no scan came with a larger number than " +

@@ -7,6 +7,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/python/module/exclusive.h"
@@ -47,6 +48,8 @@ class OdometrySession {
   py::array_t<double> Covariances() const;
   py::array_t<double> MapPoints() const;
   py::dict PointCounts() const;
+  /// Where each LiDAR was found to be, (4, 4), and what is added to its times.
+  std::vector<std::pair<py::array_t<double>, double>> Rig() const;
   /// Sentences about odd stamps and doubtful poses, and about a part of the input that is missing.
   std::vector<std::string> Remarks() const;
   std::string MissingInput() const;

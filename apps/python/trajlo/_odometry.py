@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 import warnings
-from typing import Any, Callable, Dict, Optional
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy
 
@@ -122,9 +122,10 @@ class Odometry:
         return self._session.point_counts()
 
     @property
-    def T_body_lidar(self) -> numpy.ndarray:
-        """Where the LiDARs of sensor.T_body_lidar are, as corrected by now: (N, 4, 4)."""
-        return self._session.T_body_lidar()
+    def rig(self) -> List[Tuple[numpy.ndarray, float]]:
+        """For each LiDAR of sensor.T_body_lidar: where it was found to be by now, (4, 4), and the
+        seconds that are added to its times."""
+        return self._session.rig()
 
     @property
     def lost_at_ns(self) -> Optional[int]:

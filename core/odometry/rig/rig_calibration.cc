@@ -13,12 +13,13 @@ namespace {
 /// How well a rig is known before it is seen.
 constexpr double kPriorSigma_m = 0.03;
 constexpr double kPriorSigma_rad = 0.02;
+constexpr double kPriorSigma_s = 0.01;
 constexpr double kMemory_s = 10.0;
 /// Planes are seen from another place when the body has moved by as much, or has turned such that
 /// a point at this distance has.
 constexpr double kPlace_m = 0.25;
 constexpr double kLeverArm_m = 5.0;
-/// A LiDAR is known when it was seen from so many places: 2.5 m, or 0.5 rad.
+/// A LiDAR is known when it has seen the map from so many: on 2.5 m, or in half a radian.
 constexpr double kEnoughPlaces = 10.0;
 /// Holds the pose where the points of a segment do not.
 constexpr double kPoseInformation = 1.0;
@@ -38,7 +39,17 @@ struct RigidEquations {
   }
 };
 
-Eigen::Index Row(std::size_t lidar) { return static_cast<Eigen::Index>(6 * lidar); }
+/// Of each LiDAR: [rho; theta] of its place, left of the correction, and its clock.
+constexpr int kUnknowns = 7;
+
+Eigen::Index Row(std::size_t lidar) { return static_cast<Eigen::Index>(kUnknowns * lidar); }
+
+/// The motion of the body over the oldest segment, [rho; theta] per second, body frame: by v c a
+/// point has moved c seconds later. Zero where points have no time of their own.
+Vector6d TwistOf(const Window& window) {
+  return window.segments.front().cloud.IsInstant() ? Vector6d(Vector6d::Zero())
+                                                   : window.Velocity(0);
+}
 
 double PlacesPassed(const SE3& T_begin, const SE3& T_end) {
   const StepSize step = MeasureStep(T_begin, T_end);
@@ -81,17 +92,16 @@ bool RigCalibration::IsKnown(std::size_t lidar) const {
 }
 
 void RigCalibration::Apply(SegmentCloud* cloud) const {
-  cloud->rig_corrections.clear();
-  for (std::size_t l = 0; l < cloud->lidar_origins_body_m.size(); ++l) {
-    cloud->rig_corrections.push_back(Correction(l));
-    cloud->lidar_origins_body_m[l] = Correction(l) * cloud->lidar_origins_body_m[l];
+  if (!is_learning_ || !reference_ || cloud->corrections.size() < 2) return;
+  for (std::size_t l = 0; l < cloud->corrections.size(); ++l) {
+    cloud->corrections[l].T_body = Correction(l).T_body;
+    cloud->lidar_origins_body_m[l] = Correction(l).T_body * cloud->lidar_origins_body_m[l];
   }
-  if (!is_learning_ || !reference_) return;
   for (std::vector<SegmentPoint>* points : {&cloud->map_points, &cloud->registration_points}) {
     for (SegmentPoint& point : *points) {
       if (point.lidar == reference_) continue;
-      point.p_body_m =
-          (cloud->rig_corrections[point.lidar] * point.p_body_m.cast<double>()).cast<float>();
+      const SE3& C = cloud->corrections[point.lidar].T_body;
+      point.p_body_m = (C * point.p_body_m.cast<double>()).cast<float>();
     }
   }
   DropUnknown(cloud);
@@ -113,35 +123,37 @@ void RigCalibration::Add(std::size_t lidars) {
 
 void RigCalibration::Learn(const Window& window) {
   const Segment& segment = window.segments.front();
-  const std::size_t lidars = segment.cloud.rig_corrections.size();
+  const std::size_t lidars = segment.cloud.corrections.size();
   if (!is_learning_ || !reference_ || lidars < 2 || !window.is_believed) return;
   Add(lidars);
+  NotePlaces(window);
 
-  std::vector<bool> is_seen(lidars);
-  for (const SegmentPoint& point : segment.cloud.registration_points) is_seen[point.lidar] = true;
-  for (std::size_t l = 0; l < lidars; ++l) {
-    if (is_seen[l]) lidars_[l].places += PlacesPassed(window.T_world_begin, segment.T_world_end);
-  }
+  // [I v]: from a change of a LiDAR's place and clock to one of the body's pose.
+  Eigen::Matrix<double, 6, kUnknowns> B;
+  B << Matrix6d::Identity(), TwistOf(window);
   const auto by_lidar = PointsByLidar(segment.points, lidars, *reference_);
   std::vector<RigidEquations> of(lidars);
-  /// Of each correction, from the one that the points were moved by to the present one.
+  /// From what the points were corrected by to what is known now.
   Eigen::VectorXd since = Eigen::VectorXd::Zero(g_.size());
   for (std::size_t l = 0; l < lidars; ++l) {
     if (by_lidar[l].empty()) continue;
     of[l] = RigidEquations(
         LinearizeSegment(by_lidar[l], window.T_world_begin, segment.T_world_end, window.noise));
-    since.segment<6>(Row(l)) =
-        se3::Log(lidars_[l].correction * segment.cloud.rig_corrections[l].Inverse());
+    const LidarCorrection& now = lidars_[l].correction;
+    const LidarCorrection& then = segment.cloud.corrections[l];
+    since.segment<kUnknowns>(Row(l)) << se3::Log(now.T_body * then.T_body.Inverse()),
+        now.clock_s - then.clock_s;
   }
   const RigidEquations all(segment.registration);
   const Eigen::LDLT<Matrix6d> pose(all.A + kPoseInformation * Matrix6d::Identity());
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(H_.rows(), H_.cols());
   Eigen::VectorXd s = Eigen::VectorXd::Zero(g_.size());
   for (std::size_t l = 0; l < lidars; ++l) {
-    s.segment<6>(Row(l)) = of[l].g - of[l].A * pose.solve(all.g);
-    S.block<6, 6>(Row(l), Row(l)) = of[l].A;
+    s.segment<kUnknowns>(Row(l)) = B.transpose() * (of[l].g - of[l].A * pose.solve(all.g));
     for (std::size_t m = 0; m < lidars; ++m) {
-      S.block<6, 6>(Row(l), Row(m)) -= of[l].A * pose.solve(of[m].A);
+      Matrix6d block = -of[l].A * pose.solve(of[m].A);
+      if (l == m) block += of[l].A;
+      S.block<kUnknowns, kUnknowns>(Row(l), Row(m)) = B.transpose() * block * B;
     }
   }
   const double kept = std::exp(-segment.Duration_s() / kMemory_s);
@@ -150,23 +162,45 @@ void RigCalibration::Learn(const Window& window) {
   Update();
 }
 
+/// The LiDARs that the oldest segment has points of have seen one place more, or a part of it.
+void RigCalibration::NotePlaces(const Window& window) {
+  const Segment& segment = window.segments.front();
+  std::vector<bool> is_seen(lidars_.size());
+  for (const SegmentPoint& point : segment.cloud.registration_points) is_seen[point.lidar] = true;
+  for (std::size_t l = 0; l < lidars_.size(); ++l) {
+    if (is_seen[l]) lidars_[l].places += PlacesPassed(window.T_world_begin, segment.T_world_end);
+  }
+}
+
 /// A Gauss-Newton step of all corrections.
 void RigCalibration::Update() {
-  Vector6d prior;
-  prior.head<3>().setConstant(1.0 / (kPriorSigma_m * kPriorSigma_m));
-  prior.tail<3>().setConstant(1.0 / (kPriorSigma_rad * kPriorSigma_rad));
+  Eigen::Matrix<double, kUnknowns, 1> prior;
+  prior << Eigen::Vector3d::Constant(1.0 / (kPriorSigma_m * kPriorSigma_m)),
+      Eigen::Vector3d::Constant(1.0 / (kPriorSigma_rad * kPriorSigma_rad)),
+      1.0 / (kPriorSigma_s * kPriorSigma_s);
   Eigen::MatrixXd H = H_;
   Eigen::VectorXd g = g_;
   for (std::size_t l = 0; l < lidars_.size(); ++l) {
-    H.diagonal().segment<6>(Row(l)) += prior;
-    g.segment<6>(Row(l)) += prior.cwiseProduct(se3::Log(lidars_[l].correction));
+    const LidarCorrection& present = lidars_[l].correction;
+    Eigen::Matrix<double, kUnknowns, 1> from_given;
+    from_given << se3::Log(present.T_body), present.clock_s;
+    H.diagonal().segment<kUnknowns>(Row(l)) += prior;
+    g.segment<kUnknowns>(Row(l)) += prior.cwiseProduct(from_given);
   }
   const Eigen::VectorXd step = -H.ldlt().solve(g);
   g_ += H_ * step;
   for (std::size_t l = 0; l < lidars_.size(); ++l) {
     if (l == *reference_) continue;
-    lidars_[l].correction = se3::Exp(step.segment<6>(Row(l))) * lidars_[l].correction;
+    LidarCorrection& correction = lidars_[l].correction;
+    correction.T_body = se3::Exp(step.segment<6>(Row(l))) * correction.T_body;
+    correction.clock_s += step[Row(l) + 6];
   }
+}
+
+std::vector<double> RigCalibration::Clocks_s() const {
+  std::vector<double> clocks_s;
+  for (const Lidar& lidar : lidars_) clocks_s.push_back(lidar.correction.clock_s);
+  return clocks_s;
 }
 
 }  // namespace trajlo

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/odometry/segments/lidar_correction.h"
 #include "manifolds/eigen_abi.h"
-#include "manifolds/se3.h"
 
 namespace trajlo {
 
@@ -43,8 +43,8 @@ struct SegmentCloud {
   bool is_gap = false;
   /// Where each LiDAR is in the body frame.
   std::vector<Eigen::Vector3d> lidar_origins_body_m;
-  /// By which the points of each LiDAR were moved in the body frame; see RigCalibration.
-  std::vector<SE3> rig_corrections;
+  /// What the points of each LiDAR are corrected by.
+  std::vector<LidarCorrection> corrections;
   std::vector<SegmentPoint> map_points;           ///< Fine: what enters the map.
   std::vector<SegmentPoint> registration_points;  ///< Coarse subset: what is registered.
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segmenter.h"
@@ -32,6 +33,9 @@ class SegmentStream {
   /// Called with every scan that is used, in order, before Add returns; perhaps by another thread,
   /// while the segments of that scan are handed on.
   void OnScan(std::function<void(const LidarScan&)> callback) { on_scan_ = std::move(callback); }
+
+  /// See Segmenter.
+  void CorrectClocks(const std::vector<double>& clocks_s) { segmenter_.CorrectClocks(clocks_s); }
 
   /// The trajectory begins at this time.
   void NoteFirstPose(std::int64_t t_ns) { sequencer_.NoteFirstPose(t_ns); }

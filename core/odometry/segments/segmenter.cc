@@ -51,6 +51,10 @@ SE3 Segmenter::PoseOf(std::size_t lidar) const {
   return lidar < options_.T_body_lidar.size() ? options_.T_body_lidar[lidar] : SE3();
 }
 
+double Segmenter::ClockOf_s(std::size_t lidar) const {
+  return lidar < clocks_s_.size() ? clocks_s_[lidar] : 0.0;
+}
+
 bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body) {
   if (!point.xyz_m.allFinite()) {
     ++counts_.not_finite;
@@ -71,7 +75,7 @@ bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::
 }
 
 void Segmenter::OpenNext(std::int64_t end_ns, bool is_gap) {
-  slots_.push_back({*end_ns_, end_ns, is_gap, {}});
+  slots_.push_back({*end_ns_, end_ns, is_gap, {}, {}});
   if (!is_gap) slots_.back().points.reserve(usual_points_);
   end_ns_ = end_ns;
 }
@@ -96,6 +100,8 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
   if (scan.points.empty()) return;
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   for (const LidarPoint& point : scan.points) first_ns = std::min(first_ns, point.t_ns);
+  const std::int64_t clock_ns = ToNs(ClockOf_s(lidar));
+  first_ns += clock_ns;
 
   if (!end_ns_) {
     end_ns_ = first_ns;
@@ -109,23 +115,29 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
   const std::int64_t first_open_ns = FirstOpen_ns();
   std::int64_t newest_ns = kUnseen;
   for (const LidarPoint& point : scan.points) {
-    if (point.t_ns < first_open_ns) {
+    const std::int64_t t_ns = point.t_ns + clock_ns;
+    if (t_ns < first_open_ns) {
       ++counts_.too_late;
       continue;
     }
-    if (point.t_ns > std::max(*end_ns_, first_ns) + max_gap_ns_) {
+    if (t_ns > std::max(*end_ns_, first_ns) + max_gap_ns_) {
       ++counts_.wrong_time;
       continue;
     }
-    newest_ns = std::max(newest_ns, point.t_ns);
+    newest_ns = std::max(newest_ns, t_ns);
     Eigen::Vector3f p_body;
     if (!Accept(point, T_body_lidar, &p_body)) continue;
-    Slot& slot = SlotAt(point.t_ns);
-    const double alpha = static_cast<double>(point.t_ns - slot.begin_ns) /
+    Slot& slot = SlotAt(t_ns);
+    const double alpha = static_cast<double>(t_ns - slot.begin_ns) /
                          static_cast<double>(slot.end_ns - slot.begin_ns);
     slot.points.push_back({p_body, static_cast<float>(alpha), static_cast<std::uint16_t>(lidar)});
   }
   newest_ns_[lidar] = std::max(newest_ns_[lidar], newest_ns);
+  for (Slot& slot : slots_) {
+    if (slot.end_ns <= first_ns) continue;
+    slot.clocks_s.resize(newest_ns_.size());
+    slot.clocks_s[lidar] = ClockOf_s(lidar);
+  }
 }
 
 /// The slot that the points of a scan without times belong to; null if it is too late for them.
@@ -149,7 +161,7 @@ Segmenter::Slot* Segmenter::DiscreteSlotAt(std::int64_t stamp_ns) {
     if (stamp_ns < slot.begin_ns + kShortest_ns) continue;
     // Of another LiDAR, between two scans that came before.
     const auto before = slots_.insert(slots_.begin() + static_cast<std::ptrdiff_t>(i),
-                                      {slot.begin_ns, stamp_ns, false, {}});
+                                      {slot.begin_ns, stamp_ns, false, {}, {}});
     slots_[i + 1].begin_ns = stamp_ns;
     return &*before;
   }
@@ -203,8 +215,10 @@ std::optional<SegmentCloud> Segmenter::Next() {
   cloud.end_ns = slot.end_ns;
   cloud.is_gap = slot.is_gap;
   usual_points_ = slot.points.size() + slot.points.size() / 8;
+  slot.clocks_s.resize(newest_ns_.size());
   for (std::size_t lidar = 0; lidar < newest_ns_.size(); ++lidar) {
     cloud.lidar_origins_body_m.push_back(PoseOf(lidar).t);
+    cloud.corrections.push_back({SE3(), slot.clocks_s[lidar]});
   }
   Thin(slot.points, &cloud);
   return cloud;

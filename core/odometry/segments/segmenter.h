@@ -24,14 +24,15 @@ struct SegmenterOptions {
   double max_lag_s = 0.5;
   double vertical_correction_deg = 0.0;
   std::vector<SE3> T_body_lidar;
-  bool learn_extrinsics = true;
+  bool learn_rig = true;
 
   template <typename Describer>
   void DescribeSensor(Describer& d) {
     d(OptionFor::kUsers, "T_body_lidar", T_body_lidar,
       "Pose of each LiDAR in the body frame. A single LiDAR needs none: it is the body then.");
-    d(OptionFor::kExperts, "learn_extrinsics", learn_extrinsics,
-      "Corrects T_body_lidar of several LiDARs by what they see; false takes it for exact.");
+    d(OptionFor::kExperts, "learn_rig", learn_rig,
+      "Corrects the poses and clocks of several LiDARs by what they see; false takes them for "
+      "exact.");
     d(OptionFor::kUsers, "min_range_m", min_range_m, Range<double>{0.0, 1e3},
       "Nearer points are dropped.");
     d(OptionFor::kUsers, "max_range_m", max_range_m, Range<double>{0.1, 1e4},
@@ -72,6 +73,10 @@ class Segmenter {
  public:
   explicit Segmenter(const SegmenterOptions& options);
 
+  /// Added to the times of the LiDARs' points from the next scan on; not to the stamps of scans
+  /// without point times.
+  void CorrectClocks(const std::vector<double>& clocks_s) { clocks_s_ = clocks_s; }
+
   void AddScan(const LidarScan& scan);
   /// No further scans: the segments still open are completed, the last one with what it has.
   void Finish();
@@ -86,7 +91,9 @@ class Segmenter {
     std::int64_t begin_ns, end_ns;
     bool is_gap;
     std::vector<SegmentPoint> points;
+    std::vector<double> clocks_s;  ///< By which the points of each LiDAR were corrected.
   };
+  double ClockOf_s(std::size_t lidar) const;
   void AddContinuous(const LidarScan& scan);
   void AddDiscrete(const LidarScan& scan);
   SE3 PoseOf(std::size_t lidar) const;
@@ -107,6 +114,7 @@ class Segmenter {
   std::size_t usual_points_ = 0;  ///< What a segment holds, and a little more.
   std::deque<Slot> slots_;        ///< Not yet handed out, without holes.
   std::int64_t complete_until_ns_;
+  std::vector<double> clocks_s_;
   std::vector<std::int64_t> newest_ns_;  ///< Newest time of each LiDAR.
   std::optional<std::int64_t> end_ns_;   ///< End of the newest slot.
   bool has_point_times_ = false;         ///< Of any scan so far.

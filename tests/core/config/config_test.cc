@@ -174,10 +174,12 @@ TEST(Config, DumpLoadsBackToTheSameValues) {
 
 TEST(Config, ARigLoadsBackToTheSameValues) {
   const Eigen::Quaterniond q = Eigen::Quaterniond(0.3, -0.2, 0.7, 0.1).normalized();
-  const RunConfig back = Loaded(RigYaml("two", {{q, {0.1, 1.0 / 3.0, -1e-9}}, SE3()}));
+  const RunConfig back =
+      Loaded(RigYaml("two", {{q, {0.1, 1.0 / 3.0, -1e-9}}, SE3()}, {0, -0.0048}));
   ASSERT_EQ(back.odometry.segmenter.T_body_lidar.size(), 2u);
   EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].q.coeffs(), q.coeffs());
   EXPECT_EQ(back.odometry.segmenter.T_body_lidar[0].t, Eigen::Vector3d(0.1, 1.0 / 3.0, -1e-9));
+  EXPECT_EQ(back.input.clock_offset_s.Of(1), -0.0048);
 }
 
 TEST(Config, ListedKeysCanBeSetToTheirDefaults) {

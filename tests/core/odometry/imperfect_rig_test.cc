@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Extrinsics as they are really known: two LiDARs make two walls of one until they are corrected.
+// Rigs as they are really known: two LiDARs make two walls of one until they are corrected.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,22 +15,22 @@ namespace trajlo {
 namespace {
 
 struct Result {
-  double error_m;     ///< At the end of the recording.
-  SE3 left_over;      ///< Of the second LiDAR, from where it really is.
-  std::string poses;  ///< All control poses, byte by byte.
+  double error_m;             ///< At the end of the recording.
+  LidarCorrection left_over;  ///< What is still wrong with the second LiDAR.
+  std::string poses;          ///< All control poses, byte by byte.
 };
 
-/// A flight with two LiDARs, the second of which is said to sit where it is moved to by `error`.
-Result Fly(const char* scenario_name, const SE3& error, bool learns, int threads = 1) {
+/// A flight with two LiDARs, the second of which needs `error` as a correction.
+Result Fly(const char* scenario_name, const LidarCorrection& error, bool learns, int threads = 1) {
   simulation::Scenario scenario = simulation::MakeScenario(scenario_name);
   scenario.duration_s = 8.0;
+  scenario.rig[1].clock_offset_s = -error.clock_s;
   const simulation::Simulator simulator(scenario);
   OdometryOptions options;
   options.threads = threads;
-  options.segmenter.learn_extrinsics = learns;
-  const SE3 T_body_first = scenario.rig[0].T_body_lidar;
-  const SE3 T_body_second = scenario.rig[1].T_body_lidar;
-  options.segmenter.T_body_lidar = {T_body_first, error * T_body_second};
+  options.segmenter.learn_rig = learns;
+  options.segmenter.T_body_lidar = {scenario.rig[0].T_body_lidar,
+                                    error.T_body.Inverse() * scenario.rig[1].T_body_lidar};
   Odometry odometry(options);
   simulation::SimulateScans(simulator, 2, [&](const auto& scan) { odometry.AddScan(scan.scan); });
   odometry.Finish();
@@ -38,37 +39,40 @@ Result Fly(const char* scenario_name, const SE3& error, bool learns, int threads
   const SE3 truth = T_world_start.Inverse() * simulator.TrueWorldFromBody(poses.back().t_ns);
   Result result;
   result.error_m = (truth.t - poses.back().T_world_body.t).norm();
-  result.left_over = odometry.T_body_lidar()[1] * T_body_second.Inverse();
+  const LidarCorrection found = odometry.rig().Correction(1);
+  const SE3& T_body_lidar = options.segmenter.T_body_lidar[1];
+  result.left_over.T_body = found.T_body * T_body_lidar * scenario.rig[1].T_body_lidar.Inverse();
+  result.left_over.clock_s = found.clock_s - error.clock_s;
   for (const ControlPose& pose : poses) {
     result.poses += testing::BytesOf(pose.T_world_body.data(), 7);
   }
   return result;
 }
 
-/// Three centimetres and 1.4 degrees.
-SE3 WrongPose() {
+/// Three centimetres, 1.4 degrees and 8 ms.
+LidarCorrection WrongRig() {
   Vector6d tau;
   tau << 0.02, -0.01, 0.02, 0.01, 0.02, -0.01;
-  return se3::Exp(tau);
+  return {se3::Exp(tau), 0.008};
 }
 
 void ExpectCorrected(const Result& result) {
-  EXPECT_LT(result.left_over.t.norm(), 0.015);
-  EXPECT_LT(so3::Log(result.left_over.q).norm(), 0.004);
+  EXPECT_LT(result.left_over.T_body.t.norm(), 0.015);
+  EXPECT_LT(so3::Log(result.left_over.T_body.q).norm(), 0.004);
+  EXPECT_LT(std::abs(result.left_over.clock_s), 0.001);
 }
 
-/// Uncorrected, the hall ends 0.07 m off and the facade 0.33 m.
 class ImperfectRig : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ImperfectRig, IsCorrected) {
-  const Result corrected = Fly(GetParam(), WrongPose(), true);
+  const Result corrected = Fly(GetParam(), WrongRig(), true);
   ExpectCorrected(corrected);
   EXPECT_LT(corrected.error_m, 0.06);
-  EXPECT_LT(5.0 * corrected.error_m, Fly(GetParam(), WrongPose(), false).error_m);
+  EXPECT_LT(5.0 * corrected.error_m, Fly(GetParam(), WrongRig(), false).error_m);
 }
 
 TEST_P(ImperfectRig, ThatIsRightStaysSo) {
-  const Result result = Fly(GetParam(), SE3(), true);
+  const Result result = Fly(GetParam(), {}, true);
   ExpectCorrected(result);
   EXPECT_LT(result.error_m, 0.03);
 }
@@ -77,8 +81,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ImperfectRig,
                          ::testing::Values("hall_os1_16x2", "facade_fast_os1_16x2"));
 
 TEST(ImperfectRig, IsCorrectedAlikeByAnyNumberOfThreads) {
-  EXPECT_EQ(Fly("hall_os1_16x2", WrongPose(), true, 1).poses,
-            Fly("hall_os1_16x2", WrongPose(), true, 3).poses);
+  EXPECT_EQ(Fly("hall_os1_16x2", WrongRig(), true, 1).poses,
+            Fly("hall_os1_16x2", WrongRig(), true, 3).poses);
 }
 
 }  // namespace

@@ -130,6 +130,9 @@ TEST(ScanSamplerTest, PointsAreWhereTheyWereMeasuredAlsoWithAnExtrinsicAndATurne
   SE3 T_body_lidar;
   T_body_lidar.q = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitY());
   T_body_lidar.t = Eigen::Vector3d(0.1, -0.2, 0.3);
+  LidarPlace place;
+  place.T_body_lidar = T_body_lidar;
+  place.clock_moved_s = 0.003;
   segmenter.vertical_correction_deg = 0.205;
   const auto too_low_rad = static_cast<float>(0.205 * M_PI / 180.0);
   LidarScan scan;
@@ -137,7 +140,7 @@ TEST(ScanSamplerTest, PointsAreWhereTheyWereMeasuredAlsoWithAnExtrinsicAndATurne
   for (int i = 0; i < 300; ++i) {
     LidarPoint point;
     point.t_ns = kStart_ns + i * 1'000'000;
-    const SE3 T_world_lidar = PoseAt(point.t_ns) * T_body_lidar;
+    const SE3 T_world_lidar = PoseAt(point.t_ns + 3'000'000) * T_body_lidar;
     const Eigen::Vector3d& post = posts[static_cast<std::size_t>(i % 3)];
     point.xyz_m = TurnUp((T_world_lidar.Inverse() * post).cast<float>(), -too_low_rad);
     point.intensity = static_cast<float>(i % 3);
@@ -145,7 +148,7 @@ TEST(ScanSamplerTest, PointsAreWhereTheyWereMeasuredAlsoWithAnExtrinsicAndATurne
   }
   ScanSampler sampler(segmenter);
   sampler.Note(scan);
-  const std::vector<WorldPoint> points = sampler.Deskew(Drive(0.4), {SE3(), T_body_lidar});
+  const std::vector<WorldPoint> points = sampler.Deskew(Drive(0.4), {LidarPlace(), place});
   EXPECT_THAT(points, SizeIs(300));
   for (const WorldPoint& point : points) {
     const Eigen::Vector3d& post = posts[static_cast<std::size_t>(point.intensity)];

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/support/random_poses.h"
 
@@ -16,15 +17,18 @@ using ::testing::IsEmpty;
 using testing::Random;
 using ::testing::SizeIs;
 
-/// A rig in a room of random planes. The error of each LiDAR is what its correction should become.
+constexpr double kInterval_s = 0.03;
+
+/// A rig in a room of random planes, whose LiDARs need these corrections.
 class Rig {
  public:
-  explicit Rig(const std::vector<SE3>& errors, unsigned seed = 1)
+  explicit Rig(const std::vector<LidarCorrection>& errors, unsigned seed = 1)
       : random_(seed), errors_(errors), T_world_body_(random_.Pose()) {}
 
-  /// What the segmenter hands out while the body moves by `step`: as the points would be without
-  /// any correction.
-  SegmentCloud See(int points_per_lidar, const Vector6d& step) {
+  /// What the segmenter hands out while the body moves by `step`, and its times are corrected by
+  /// `clocks_s`.
+  SegmentCloud See(int points_per_lidar, const Vector6d& step, std::vector<double> clocks_s = {}) {
+    clocks_s.resize(errors_.size());
     SegmentCloud cloud;
     cloud.begin_ns = t_ns_;
     cloud.end_ns = t_ns_ += 30'000'000;
@@ -32,14 +36,16 @@ class Rig {
     T_begin_ = T_world_body_;
     T_world_body_ = Plus(T_world_body_, step);
     for (std::size_t l = 0; l < errors_.size(); ++l) {
+      cloud.corrections.push_back({SE3(), clocks_s[l]});
+      const double wrong_s = clocks_s[l] - errors_[l].clock_s;
       for (int i = 0; i < points_per_lidar; ++i) {
-        const SegmentPoint point = {(errors_[l].Inverse() * random_.Vector(1, 15)).cast<float>(),
-                                    static_cast<float>(random_.Uniform(0, 1)),
-                                    static_cast<std::uint16_t>(l)};
-        cloud.map_points.push_back(point);
-        cloud.registration_points.push_back(point);
+        const Eigen::Vector3d p_body = errors_[l].T_body.Inverse() * random_.Vector(1, 15);
+        const double alpha = random_.Uniform(0, 1) + wrong_s / kInterval_s;
+        cloud.map_points.push_back(
+            {p_body.cast<float>(), static_cast<float>(alpha), static_cast<std::uint16_t>(l)});
       }
     }
+    cloud.registration_points = cloud.map_points;
     return cloud;
   }
 
@@ -55,13 +61,15 @@ class Rig {
     for (const SegmentPoint& seen : cloud.registration_points) {
       RegistrationPoint point;
       point.p_body_m = seen.p_body_m.cast<double>();
-      point.alpha = seen.alpha;
+      point.alpha = static_cast<double>(seen.alpha);
       point.lidar = seen.lidar;
       point.normal_world = random_.Direction();
-      const SE3 C_left = errors_[seen.lidar] * cloud.rig_corrections[seen.lidar].Inverse();
-      const Eigen::Vector3d p_true = C_left * point.p_body_m;
+      const LidarCorrection& error = errors_[seen.lidar];
+      const LidarCorrection& applied = cloud.corrections[seen.lidar];
+      const double alpha = point.alpha - (applied.clock_s - error.clock_s) / kInterval_s;
+      const SE3 T = T_begin_ * se3::Exp(alpha * Minus(T_world_body_, T_begin_));
       point.offset_m =
-          point.normal_world.dot(Interpolate(T_begin_, T_world_body_, point.alpha) * p_true) +
+          point.normal_world.dot(T * (error.T_body * applied.T_body.Inverse() * point.p_body_m)) +
           random_.Gaussian(noise_m);
       segment.points.push_back(point);
     }
@@ -76,21 +84,22 @@ class Rig {
 
  private:
   Random random_;
-  std::vector<SE3> errors_;
+  std::vector<LidarCorrection> errors_;
   SE3 T_world_body_, T_begin_;
   std::int64_t t_ns_ = 0;
 };
 
-Vector6d Step() {
+/// Two metres a second, and turns to and fro: a steady motion cannot tell a clock from a place.
+Vector6d Step(int i = 0) {
   Vector6d step;
-  step << 0.06, 0.0, 0.01, 0.0, 0.0, 0.02;
+  step << 0.06, 0.02 * std::sin(0.3 * i), 0.01, 0.0, 0.0, 0.02 * std::cos(0.1 * i);
   return step;
 }
 
 /// `segments` of a rig, registered at poses that are wrong by some centimetres.
 void LearnFrom(Rig* rig, int segments, double noise_m, RigCalibration* calibration) {
   for (int i = 0; i < segments; ++i) {
-    SegmentCloud cloud = rig->See(200, Step());
+    SegmentCloud cloud = rig->See(200, Step(i), calibration->Clocks_s());
     calibration->Apply(&cloud);
     if (i == 0) {
       std::vector<SegmentCloud> first = {cloud};
@@ -102,38 +111,42 @@ void LearnFrom(Rig* rig, int segments, double noise_m, RigCalibration* calibrati
   }
 }
 
-void ExpectNear(const SE3& found, const SE3& expected, double tolerance_m, double tolerance_rad) {
-  const Vector6d difference = Minus(found, expected);
-  EXPECT_LT(difference.head<3>().norm(), tolerance_m);
-  EXPECT_LT(difference.tail<3>().norm(), tolerance_rad);
+void ExpectNear(const LidarCorrection& found, const LidarCorrection& expected, double tolerance_m,
+                double tolerance_rad, double tolerance_s) {
+  const Vector6d difference = Minus(found.T_body, expected.T_body);
+  EXPECT_LE(difference.head<3>().norm(), tolerance_m);
+  EXPECT_LE(difference.tail<3>().norm(), tolerance_rad);
+  EXPECT_LE(std::abs(found.clock_s - expected.clock_s), tolerance_s);
 }
 
-TEST(RigCalibration, FindsErrorsOfCentimetresAndDegreesWhateverThePosesAre) {
+LidarCorrection RandomError(Random* random) {
+  return {se3::Exp(random->Tangent(0.05, 0.03)), random->Uniform(-0.01, 0.01)};
+}
+
+TEST(RigCalibration, FindsCentimetresDegreesAndMillisecondsWhateverThePosesAre) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Random random(seed);
-    const std::vector<SE3> errors = {SE3(), se3::Exp(random.Tangent(0.05, 0.03)),
-                                     se3::Exp(random.Tangent(0.05, 0.03))};
+    const std::vector<LidarCorrection> errors = {{}, RandomError(&random), RandomError(&random)};
     Rig rig(errors, seed);
     RigCalibration calibration(true);
     LearnFrom(&rig, 200, 0.01, &calibration);
-    ExpectNear(calibration.Correction(0), SE3(), 1e-12, 1e-12);
+    ExpectNear(calibration.Correction(0), {}, 0.0, 0.0, 0.0);
     for (const std::size_t l : {1u, 2u}) {
-      ExpectNear(calibration.Correction(l), errors[l], 0.0005, 0.0001);
+      ExpectNear(calibration.Correction(l), errors[l], 0.001, 0.0001, 0.0005);
     }
   }
 }
 
 TEST(RigCalibration, LeavesARigThatIsRightWhereItIs) {
-  Rig rig({SE3(), SE3()});
+  Rig rig({LidarCorrection(), LidarCorrection()});
   RigCalibration calibration(true);
   LearnFrom(&rig, 200, 0.01, &calibration);
-  ExpectNear(calibration.Correction(1), SE3(), 0.0005, 0.0001);
+  ExpectNear(calibration.Correction(1), {}, 0.001, 0.0001, 0.0005);
 }
 
 /// The pose is unknown, too: on the planes that it sees, the second LiDAR alone agrees with all.
 TEST(RigCalibration, LearnsNothingFromOneLidarAlone) {
-  const SE3 error = se3::Exp(0.02 * Vector6d::Ones());
-  Rig rig({SE3(), error});
+  Rig rig({{}, {se3::Exp(0.02 * Vector6d::Ones()), 0.01}});
   RigCalibration calibration(true);
   for (int i = 0; i < 50; ++i) {
     SegmentCloud cloud = rig.See(200, Step());
@@ -150,21 +163,20 @@ TEST(RigCalibration, LearnsNothingFromOneLidarAlone) {
         LinearizeSegment(points, window.T_world_begin, segment.T_world_end, window.noise);
     calibration.Learn(window);
   }
-  ExpectNear(calibration.Correction(1), SE3(), 0.002, 0.001);
+  ExpectNear(calibration.Correction(1), {}, 0.002, 0.001, 0.001);
 }
 
 TEST(RigCalibration, MovesPointsAndOriginsByTheCorrection) {
-  const SE3 error = se3::Exp(0.02 * Vector6d::Ones());
-  Rig rig({SE3(), error});
+  Rig rig({{}, {se3::Exp(0.02 * Vector6d::Ones()), 0.01}});
   RigCalibration calibration(true);
   LearnFrom(&rig, 200, 0.0, &calibration);
   const SegmentCloud seen = rig.See(3, Step());
   SegmentCloud moved = seen;
   calibration.Apply(&moved);
-  const SE3 C = calibration.Correction(1);
-  ASSERT_THAT(moved.rig_corrections, SizeIs(2));
-  ExpectNear(moved.rig_corrections[0], SE3(), 1e-15, 1e-15);
-  ExpectNear(moved.rig_corrections[1], C, 1e-15, 1e-15);
+  const SE3 C = calibration.Correction(1).T_body;
+  ASSERT_THAT(moved.corrections, SizeIs(2));
+  ExpectNear(moved.corrections[0], {}, 0.0, 0.0, 0.0);
+  ExpectNear(moved.corrections[1], {C, seen.corrections[1].clock_s}, 1e-15, 1e-15, 0.0);
   EXPECT_EQ(moved.lidar_origins_body_m[0], seen.lidar_origins_body_m[0]);
   EXPECT_LT((moved.lidar_origins_body_m[1] - C * seen.lidar_origins_body_m[1]).norm(), 1e-12);
   for (std::size_t i = 0; i < seen.registration_points.size(); ++i) {
@@ -176,6 +188,22 @@ TEST(RigCalibration, MovesPointsAndOriginsByTheCorrection) {
   }
 }
 
+/// Each is one instant, and its clock moves no point.
+TEST(RigCalibration, ScansWithoutPointTimesTellNothingOfClocks) {
+  Rig rig({{}, {se3::Exp(0.02 * Vector6d::Ones()), 0.01}});
+  RigCalibration calibration(true);
+  for (int i = 0; i < 50; ++i) {
+    SegmentCloud cloud = rig.See(100, Step(i));
+    for (SegmentPoint& point : cloud.map_points) point.alpha = 1.0F;
+    calibration.Apply(&cloud);
+    std::vector<SegmentCloud> first = {cloud};
+    if (i == 0) calibration.Begin(&first);
+    calibration.Learn(rig.Register(std::move(cloud), SE3(), 0.01));
+  }
+  EXPECT_GT(calibration.Correction(1).T_body.t.norm(), 0.02);
+  EXPECT_EQ(calibration.Correction(1).clock_s, 0.0);
+}
+
 std::vector<int> LidarsOf(const std::vector<SegmentPoint>& points) {
   std::vector<int> lidars;
   for (const SegmentPoint& point : points) lidars.push_back(point.lidar);
@@ -185,6 +213,7 @@ std::vector<int> LidarsOf(const std::vector<SegmentPoint>& points) {
 SegmentCloud CloudOf(const std::vector<int>& lidars) {
   SegmentCloud cloud;
   cloud.lidar_origins_body_m.assign(2, Eigen::Vector3d::Zero());
+  cloud.corrections.resize(2);
   for (const int lidar : lidars) {
     cloud.map_points.push_back({Eigen::Vector3f::Ones(), 0.5F, static_cast<std::uint16_t>(lidar)});
   }
@@ -211,7 +240,7 @@ TEST(RigCalibration, TheReferenceIsTheFirstLidarThatSeesEnough) {
 }
 
 TEST(RigCalibration, PointsEnterTheMapWhenTheirLidarHasSeenItFromEnoughPlaces) {
-  Rig rig({SE3(), SE3()});
+  Rig rig({LidarCorrection(), LidarCorrection()});
   RigCalibration calibration(true);
   const auto may_enter = [&] {
     SegmentCloud cloud = rig.See(10, Step());
@@ -227,7 +256,7 @@ TEST(RigCalibration, PointsEnterTheMapWhenTheirLidarHasSeenItFromEnoughPlaces) {
 }
 
 TEST(RigCalibration, ABodyAtRestSeesFromOnePlaceOnly) {
-  Rig rig({SE3(), SE3()});
+  Rig rig({LidarCorrection(), LidarCorrection()});
   RigCalibration calibration(true);
   LearnFrom(&rig, 1, 0.0, &calibration);
   for (int i = 0; i < 1000; ++i) {
@@ -250,13 +279,13 @@ TEST(RigCalibration, WhereNoOtherPointsAreTheyEnterTheMap) {
 }
 
 TEST(RigCalibration, WhereItIsNotToLearnNothingChanges) {
-  Rig rig({SE3(), se3::Exp(0.02 * Vector6d::Ones())});
+  Rig rig({{}, {se3::Exp(0.02 * Vector6d::Ones()), 0.01}});
   RigCalibration calibration(false);
   LearnFrom(&rig, 20, 0.0, &calibration);
   SegmentCloud cloud = rig.See(10, Step());
   const SegmentCloud seen = cloud;
   calibration.Apply(&cloud);
-  ExpectNear(calibration.Correction(1), SE3(), 1e-15, 1e-15);
+  ExpectNear(calibration.Correction(1), {}, 0.0, 0.0, 0.0);
   ASSERT_THAT(cloud.map_points, SizeIs(seen.map_points.size()));
   for (std::size_t i = 0; i < seen.map_points.size(); ++i) {
     EXPECT_EQ(cloud.map_points[i].p_body_m, seen.map_points[i].p_body_m);

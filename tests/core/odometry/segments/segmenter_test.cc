@@ -28,6 +28,50 @@ TEST(Segmenter, HasNoHolesBetweenSegmentsAndTimesWithinThem) {
   }
 }
 
+TEST(Segmenter, CorrectsTheClockOfALidarAndSaysByHowMuch) {
+  Segmenter exact(SmallOptions()), late(SmallOptions());
+  late.CorrectClocks({0.0, -0.004});
+  for (int t = 0; t < 600; t += 100) {
+    for (const int lidar : {0, 1}) {
+      LidarScan scan = MakeScan(t, 100, lidar);
+      exact.AddScan(scan);
+      for (LidarPoint& point : scan.points) point.t_ns += lidar * 4 * kMs;
+      late.AddScan(scan);
+    }
+  }
+  exact.Finish();
+  late.Finish();
+  const auto expected = Drain(&exact), clouds = Drain(&late);
+  ASSERT_EQ(clouds.size(), expected.size());
+  for (std::size_t k = 0; k < clouds.size(); ++k) {
+    EXPECT_EQ(clouds[k].begin_ns, expected[k].begin_ns);
+    ASSERT_EQ(clouds[k].map_points.size(), expected[k].map_points.size());
+    for (std::size_t i = 0; i < clouds[k].map_points.size(); ++i) {
+      EXPECT_EQ(clouds[k].map_points[i].alpha, expected[k].map_points[i].alpha);
+      EXPECT_EQ(clouds[k].map_points[i].p_body_m, expected[k].map_points[i].p_body_m);
+    }
+    ASSERT_EQ(clouds[k].corrections.size(), 2u);
+    EXPECT_EQ(clouds[k].corrections[0].clock_s, 0.0);
+    EXPECT_EQ(clouds[k].corrections[1].clock_s, -0.004);
+  }
+}
+
+/// The stamp of such a scan is the time of a pose, which the other LiDARs share.
+TEST(Segmenter, LeavesStampsOfScansWithoutPointTimes) {
+  Segmenter segmenter(SmallOptions());
+  segmenter.CorrectClocks({0.01});
+  for (int t = 0; t < 300; t += 100) {
+    LidarScan scan = MakeScan(t, 10);
+    scan.has_point_times = false;
+    segmenter.AddScan(scan);
+  }
+  segmenter.Finish();
+  for (const SegmentCloud& cloud : Drain(&segmenter)) {
+    EXPECT_EQ(cloud.end_ns % (100 * kMs), 0);
+    EXPECT_EQ(cloud.corrections.at(0).clock_s, 0.0);
+  }
+}
+
 TEST(Segmenter, CutsScansOfAnyLengthAtTheSameBoundariesAndLosesNoPoint) {
   std::vector<std::vector<SegmentCloud>> results;
   for (int scan_ms : {7, 50, 100, 400}) {
