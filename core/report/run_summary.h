@@ -41,7 +41,7 @@ struct RunSummary {
   std::size_t poses_written = 0;
   PoseFlags flags;  ///< Of the control poses.
   std::size_t map_points = 0;
-  std::vector<LidarPlace> rig;
+  std::vector<LidarPlace> rig;  ///< As found.
   std::optional<std::int64_t> begin_ns, end_ns, lost_at_ns;
   double path_length_m = 0.0;
   double distance_to_start_m = 0.0;
