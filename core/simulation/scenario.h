@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation/companion.h"
 #include "core/simulation/faults.h"
 #include "core/simulation/motion.h"
 #include "core/simulation/rig.h"
@@ -20,6 +21,7 @@ struct Scenario {
   bool moving_objects = false;
   std::vector<LidarConfig> rig;
   MotionConfig motion;
+  CompanionConfig companion;
   FaultConfig faults;
   /// Scans corrected by the true motion to the pose at the middle of their sweep, without point
   /// times, as in KITTI's odometry benchmark.

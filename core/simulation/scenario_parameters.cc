@@ -43,6 +43,8 @@ std::vector<Parameter> LidarParameters(const std::string& prefix, LidarConfig* l
           {prefix + "range_sigma_m", Metres(&m.range_sigma_m)},
           {prefix + "angle_sigma_rad", Real{&m.angle_sigma_rad, 0.0, 3.0}},
           {prefix + "dropout_fraction", Share(&m.dropout_fraction)},
+          {prefix + "clutter_fraction", Share(&m.clutter_fraction)},
+          {prefix + "clutter_range_m", Metres(&m.clutter_range_m)},
           {prefix + "min_range_m", Metres(&m.min_range_m)},
           {prefix + "max_range_m", Metres(&m.max_range_m)},
           {prefix + "laser_range_sigma_m", Metres(&m.laser_range_sigma_m)},
@@ -161,6 +163,7 @@ struct Format {
 
 std::vector<Parameter> Parameters(Scenario* s) {
   MotionConfig& m = s->motion;
+  CompanionConfig& c = s->companion;
   FaultConfig& f = s->faults;
   std::vector<Parameter> parameters = {
       {"duration_s", Real{&s->duration_s, kShortestDuration_s, kLongestDuration_s}},
@@ -192,6 +195,12 @@ std::vector<Parameter> Parameters(Scenario* s) {
       {"motion.glance_s", Real{&m.glance_s, 0.001, kLongest_s}},
       {"motion.replay_file", Word{&m.replay_file, {}}},
       {"motion.replay_placed", &m.replay_placed},
+      {"companion.kind", Word{&c.kind, CompanionKinds()}},
+      {"companion.ahead_m", Real{&c.ahead_m, -kFarthest_m, kFarthest_m}},
+      {"companion.left_m", Real{&c.left_m, -kFarthest_m, kFarthest_m}},
+      {"companion.below_m", Real{&c.below_m, -kFarthest_m, kFarthest_m}},
+      {"companion.sway_m", Metres(&c.sway_m)},
+      {"companion.sway_hz", Real{&c.sway_hz, 0.0, 1000.0}},
       {"faults.dropped_scan_fraction", Share(&f.dropped_scan_fraction)},
       {"faults.repeated_scan_fraction", Share(&f.repeated_scan_fraction)},
       {"faults.nan_point_fraction", Share(&f.nan_point_fraction)},

@@ -44,6 +44,15 @@ std::optional<RayHit> CastBeam(const Scene& scene, const Vector3d& origin, const
   return hit;
 }
 
+/// Replaces what a beam hit by what it met in the air before.
+void AddClutter(const Vector3d& ray, const MeasurementModel& model, CounterRandom* random,
+                std::optional<RayHit>* hit) {
+  if (random->Uniform() >= model.clutter_fraction) return;
+  const double range_m = -model.clutter_range_m * std::log(1.0 - random->Uniform());
+  if (*hit && (*hit)->range_m < range_m) return;
+  *hit = RayHit{range_m, -ray, 0.05F};
+}
+
 }  // namespace
 
 struct Simulator::World {
@@ -55,6 +64,9 @@ struct Simulator::World {
     if (!scenario.moving_objects) blueprint.moving_objects.clear();
     PoseFunction motion =
         MakeMotion(scenario.motion, blueprint.routes, scenario.duration_s, scenario.seed);
+    if (scenario.companion.kind != "none") {
+      blueprint.moving_objects.push_back(MakeCompanion(scenario.companion, motion));
+    }
     return {Scene(std::move(blueprint.mesh), std::move(blueprint.moving_objects)),
             std::move(motion)};
   }
@@ -153,7 +165,8 @@ void Simulator::CastFirings(int lidar_id, std::int64_t index, int first, int las
     const double up_rad = error.up_rad + model.angle_sigma_rad * random.Gaussian();
     const double left_rad = error.left_rad + model.angle_sigma_rad * random.Gaussian();
     const Vector3d ray = T_world_lidar.q * Turned(firing.direction, up_rad, left_rad);
-    const std::optional<RayHit> hit = CastBeam(scene_, T_world_lidar.t, ray, t_s, model, &random);
+    std::optional<RayHit> hit = CastBeam(scene_, T_world_lidar.t, ray, t_s, model, &random);
+    if (model.clutter_fraction > 0.0) AddClutter(ray, model, &random, &hit);
     if (!hit || hit->range_m < model.min_range_m) continue;
     LidarPoint point;
     point.xyz_m = (firing.direction * (hit->range_m + range_error_m)).cast<float>();

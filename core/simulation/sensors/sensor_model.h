@@ -24,6 +24,10 @@ struct MeasurementModel {
   double laser_angle_sigma_rad = 0.0;
   /// Full width of a beam. Where it lights two surfaces at once, the range is a mixture.
   double divergence_rad = 0.0;
+  /// Share of the beams that something in the air sends back: rain, snow, dust. How far they get
+  /// is distributed exponentially with this mean; those that would get to a surface return it.
+  double clutter_fraction = 0.0;
+  double clutter_range_m = 5.0;
 };
 
 /// A LiDAR: where and when it looks, and how well it measures.
