@@ -4,9 +4,13 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trajlo {
 namespace {
+
+/// Without a point of more leverage than this, the others are on a line.
+constexpr double kMaxLeverage = 0.999;
 
 /// Of the neighbours, about the nearest one: no cancellation.
 struct Moments {
@@ -35,6 +39,25 @@ struct Moments {
   }
 };
 
+/// l0: the root mean square of e_i / (1 - h_i). `axes` are the principal ones, of which the normal
+/// is the first, and `variances` are along them.
+double Thickness(const Neighbors& neighbors, const Moments& moments, const Eigen::Matrix3d& axes,
+                 const Eigen::Vector3d& variances) {
+  const double n = neighbors.count;
+  double sum = 0.0;
+  for (int i = 0; i < neighbors.count; ++i) {
+    const Eigen::Vector3d from_nearest(neighbors.x[i] - neighbors.x[0],
+                                       neighbors.y[i] - neighbors.y[0],
+                                       neighbors.z[i] - neighbors.z[0]);
+    const Eigen::Vector3d x = axes.transpose() * (from_nearest - moments.mean);
+    const double leverage = (1.0 + x[1] * x[1] / variances[1] + x[2] * x[2] / variances[2]) / n;
+    if (!(leverage < kMaxLeverage)) return std::numeric_limits<double>::infinity();
+    const double distance_m = x[0] / (1.0 - leverage);
+    sum += distance_m * distance_m;
+  }
+  return std::sqrt(sum / n);
+}
+
 }  // namespace
 
 FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_world,
@@ -46,13 +69,13 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   // thickness by rounding.
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen;
   eigen.computeDirect(moments.covariance.cast<float>());
-  const double thickness_m = std::sqrt(std::max(0.0F, eigen.eigenvalues()[0]));
   const double width_m = std::sqrt(std::max(0.0F, eigen.eigenvalues()[1]));
-  if (width_m < options.min_width_in_spacings * spacing_m ||
-      thickness_m > PlaneFitOptions::kMaxFlatness * width_m) {
-    return {};
-  }
-  const Eigen::Vector3d normal = eigen.eigenvectors().col(0).cast<double>().normalized();
+  if (!(width_m > 0.0) || width_m < options.min_width_in_spacings * spacing_m) return {};
+  const Eigen::Matrix3d axes = eigen.eigenvectors().cast<double>();
+  const Eigen::Vector3d variances = eigen.eigenvalues().cast<double>();
+  const double thickness_m = Thickness(neighbors, moments, axes, variances);
+  if (thickness_m > PlaneFitOptions::kMaxFlatness * width_m) return {};
+  const Eigen::Vector3d normal = axes.col(0).normalized();
   const Eigen::Vector3d from_center =
       neighbors.origin_world - center_world +
       Eigen::Vector3d(neighbors.x[0], neighbors.y[0], neighbors.z[0]) + moments.mean;
@@ -61,8 +84,8 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   plane.offset_m = static_cast<float>(normal.dot(from_center));
   plane.thickness_m = static_cast<float>(thickness_m);
   plane.width_m = static_cast<float>(width_m);
-  const double flatness = thickness_m / width_m;
-  plane.normal_variance_rad2 = static_cast<float>(flatness * flatness / std::max(1, n - 3));
+  plane.normal_variance_rad2 =
+      static_cast<float>(std::max(0.0, variances[0]) / (std::max(1, n - 3) * variances[1]));
   return plane;
 }
 

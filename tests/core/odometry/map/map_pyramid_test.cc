@@ -48,7 +48,7 @@ TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
     Plane plane = wide.FindPlane({query, ray});
     ASSERT_TRUE(plane.exists());
     EXPECT_GT(plane.scale, 1.0);
-    EXPECT_GT(plane.weight, 0.7);  // Not divided by the ratio of its level.
+    EXPECT_GT(plane.weight, 0.5);  // Not divided by the ratio of its level.
     tilt_wide += plane.normal_world.head<2>().norm();
     plane = fine.FindPlane({query, ray});
     ASSERT_TRUE(plane.exists());

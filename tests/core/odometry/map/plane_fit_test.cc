@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "tests/support/random_poses.h"
 
@@ -44,22 +45,78 @@ TEST(PlaneFit, FindsThePlaneOfANoiselessPatchAnywhereInTheWorld) {
   }
 }
 
+/// The plane through all points but one (or, for -1, through all), by an iterative solver.
+struct Exact {
+  Eigen::Vector3d normal, mean;
+  Eigen::Vector3d sigmas;
+
+  Exact(const Neighbors& n, int without) {
+    Eigen::Matrix3Xd P(3, n.count);
+    int count = 0;
+    for (int j = 0; j < n.count; ++j) {
+      if (j != without) P.col(count++) << n.x[j], n.y[j], n.z[j];
+    }
+    P.conservativeResize(3, count);
+    mean = P.rowwise().mean();
+    P.colwise() -= mean;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(P * P.transpose() / count);
+    normal = eigen.eigenvectors().col(0);
+    sigmas = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  }
+};
+
 TEST(PlaneFit, AgreesWithAnIterativeEigensolver) {
   testing::Random random(2);
   for (int i = 0; i < 200; ++i) {
     const Neighbors n = Patch(&random, random.Direction(), {1, 2, 3}, 0.5, 0.3, 0.02);
     const FittedPlane plane = FitPlane(n, {1, 2, 3}, {}, 0.1);
     if (!plane.exists()) continue;
-    Eigen::Matrix<double, 3, 8> P;
-    for (int j = 0; j < 8; ++j) P.col(j) << n.x[j], n.y[j], n.z[j];
-    const Eigen::Vector3d mean = P.rowwise().mean();
-    const Eigen::Matrix3d C = (P.colwise() - mean) * (P.colwise() - mean).transpose() / 8.0;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(C);
+    const Exact exact(n, -1);
     const Eigen::Vector3d normal = plane.normal_world.cast<double>();
-    EXPECT_NEAR(std::abs(normal.dot(eigen.eigenvectors().col(0))), 1.0, 1e-6);
-    EXPECT_NEAR(plane.offset_m, normal.dot(mean), 1e-6);
-    EXPECT_NEAR(plane.thickness_m, std::sqrt(eigen.eigenvalues()[0]), 5e-6);
-    EXPECT_NEAR(plane.width_m, std::sqrt(eigen.eigenvalues()[1]), 5e-6);
+    EXPECT_NEAR(std::abs(normal.dot(exact.normal)), 1.0, 1e-6);
+    EXPECT_NEAR(plane.offset_m, normal.dot(exact.mean), 1e-6);
+    EXPECT_NEAR(plane.width_m, exact.sigmas[1], 5e-6);
+  }
+}
+
+TEST(PlaneFit, TheThicknessIsHowFarPointsLieFromThePlaneThroughTheOthers) {
+  testing::Random random(5);
+  for (int i = 0; i < 200; ++i) {
+    const Neighbors n = Patch(&random, random.Direction(), {0, 0, 0}, 0.5, 0.5, 0.001);
+    const FittedPlane plane = FitPlane(n, {0, 0, 0}, {}, 0.1);
+    if (!plane.exists()) continue;
+    double squares = 0.0;
+    for (int j = 0; j < n.count; ++j) {
+      const Exact others(n, j);
+      const Eigen::Vector3d p(n.x[j], n.y[j], n.z[j]);
+      squares += std::pow(others.normal.dot(p - others.mean), 2) / n.count;
+    }
+    // The formula is exact for planes z = a x + b y + c; these are nearly that.
+    EXPECT_NEAR(plane.thickness_m / std::sqrt(squares), 1.0, 0.02);
+  }
+}
+
+TEST(PlaneFit, RefusesAScanLineAndAPointBesideIt) {
+  testing::Random random(6);
+  for (int i = 0; i < 500; ++i) {
+    // A ring on the road, with the noise of ranges, and a point of a post above it.
+    Neighbors n;
+    n.count = 10;
+    for (int j = 0; j < 10; ++j) {
+      const bool is_post = j == 9;
+      n.x[j] = static_cast<float>(random.Gaussian(0.02));
+      n.y[j] = static_cast<float>(is_post ? 0.3 : 0.12 * j);
+      n.z[j] = static_cast<float>(is_post ? 0.5 : random.Gaussian(0.001));
+    }
+    const Exact exact(n, -1);
+    EXPECT_LT(exact.sigmas[0], 0.2 * exact.sigmas[1]) << "it fits its points well";
+    const FittedPlane plane = FitPlane(n, {0, 0, 0}, {}, 0.12);
+    EXPECT_FALSE(plane.exists() && plane.thickness_m < 0.1);
+
+    // Without noise nothing tells how the others would foretell it.
+    for (int j = 0; j < 10; ++j) n.x[j] = 0.0F;
+    for (int j = 0; j < 9; ++j) n.z[j] = 0.0F;
+    EXPECT_FALSE(FitPlane(n, {0, 0, 0}, {}, 0.12).exists());
   }
 }
 
@@ -87,7 +144,7 @@ TEST(PlaneFit, RefusesAScanLineAThickCloudAndTooFewPoints) {
   const auto fit = [&](const Neighbors& n) { return FitPlane(n, origin, {}, 0.1); };
   EXPECT_FALSE(fit(Patch(&random, up, origin, 1.0, 0.01, 0.001)).exists())
       << "points on one ring have no normal";
-  EXPECT_FALSE(fit(Patch(&random, up, origin, 1.0, 1.0, 0.6)).exists());
+  EXPECT_FALSE(fit(Patch(&random, up, origin, 1.0, 1.0, 1.0)).exists());
   Neighbors few = Patch(&random, up, origin, 1.0, 1.0, 0.0);
   few.count = 4;
   EXPECT_FALSE(fit(few).exists());
