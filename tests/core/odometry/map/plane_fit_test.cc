@@ -67,24 +67,29 @@ struct Exact {
 
 TEST(PlaneFit, AgreesWithAnIterativeEigensolver) {
   testing::Random random(2);
+  int planes = 0;
   for (int i = 0; i < 200; ++i) {
     const Neighbors n = Patch(&random, random.Direction(), {1, 2, 3}, 0.5, 0.3, 0.02);
     const FittedPlane plane = FitPlane(n, {1, 2, 3}, {}, 0.1);
     if (!plane.exists()) continue;
+    ++planes;
     const Exact exact(n, -1);
     const Eigen::Vector3d normal = plane.normal_world.cast<double>();
     EXPECT_NEAR(std::abs(normal.dot(exact.normal)), 1.0, 1e-6);
     EXPECT_NEAR(plane.offset_m, normal.dot(exact.mean), 1e-6);
     EXPECT_NEAR(plane.width_m, exact.sigmas[1], 5e-6);
   }
+  EXPECT_GT(planes, 150);
 }
 
 TEST(PlaneFit, TheThicknessIsHowFarPointsLieFromThePlaneThroughTheOthers) {
   testing::Random random(5);
+  int planes = 0;
   for (int i = 0; i < 200; ++i) {
     const Neighbors n = Patch(&random, random.Direction(), {0, 0, 0}, 0.5, 0.5, 0.001);
     const FittedPlane plane = FitPlane(n, {0, 0, 0}, {}, 0.1);
     if (!plane.exists()) continue;
+    ++planes;
     double squares = 0.0;
     for (int j = 0; j < n.count; ++j) {
       const Exact others(n, j);
@@ -94,6 +99,7 @@ TEST(PlaneFit, TheThicknessIsHowFarPointsLieFromThePlaneThroughTheOthers) {
     // The formula is exact for planes z = a x + b y + c; these are nearly that.
     EXPECT_NEAR(plane.thickness_m / std::sqrt(squares), 1.0, 0.02);
   }
+  EXPECT_GT(planes, 150);
 }
 
 TEST(PlaneFit, RefusesAScanLineAndAPointBesideIt) {
