@@ -81,6 +81,7 @@ void Odometry::Step(SegmentCloud cloud) {
   WindowStatistics statistics;
   statistics.restless = RestlessStep(window_.segments.back().cloud);
   AssociateAndSolve(&statistics);
+  if (doubt_.IsContradicted(window_)) LookAgain(predicted, &statistics);
   statistics.correction = MeasureStep(predicted.back(), window_.segments.back().T_world_end);
   if (IsBlind()) {
     TakeBackAndSearch(predicted);

@@ -93,6 +93,7 @@ class Odometry {
   void TakeBackAndSearch(const std::vector<SE3>& predicted);
   void NoteSupport();
   void AssociateAndSolve(WindowStatistics* statistics);
+  void LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics);
   void NoteScatter();
   void Watch(WindowStatistics* statistics);
   void Learn(const SE3& T_world_predicted);

@@ -2,8 +2,10 @@
 // When the points do not hold the body any more, and how it finds its place again.
 #include <utility>
 
+#include "core/odometry/health/agreement.h"
 #include "core/odometry/health/belief.h"
 #include "core/odometry/odometry.h"
+#include "core/odometry/weights/innovation.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/push_segment.h"
 
@@ -14,7 +16,42 @@ namespace {
 constexpr double kFoundSigma_m = 0.2;
 constexpr double kFoundSigma_rad = 0.05;
 
+double NewestAgreement(const Window& window) {
+  return AgreementOf(window, window.segments.back()).worst;
+}
+
 }  // namespace
+
+/// The points contradict the map where the motion prior led them: the body began to turn as the
+/// prior did not foresee. (By some degrees within a segment; no body is flung so far aside.) They
+/// look again while its attitude may be anything near. If they agree better then, the prior
+/// follows.
+void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics) {
+  const Window first = window_;
+  WindowStatistics of_first = *statistics;
+  window_.SetPoses(predicted);
+  Segment& newest = window_.segments.back();
+  newest.registration = {};
+  newest.association = {};
+  for (Segment& segment : window_.segments) segment.linearization.reset();
+  motion_prior_.UntieRotation(&window_);
+  *statistics = WindowStatistics();
+  statistics->restless = of_first.restless;
+  AssociateAndSolve(statistics);
+  statistics->milliseconds_associate += of_first.milliseconds_associate;
+  statistics->milliseconds_solve += of_first.milliseconds_solve;
+  const bool is_better = statistics->is_finite && NewestAgreement(window_) > NewestAgreement(first);
+  if (is_better) {
+    motion_prior_.Apply(&window_);
+    motion_prior_.Follow(MeasureInnovation(window_, predicted.back()));
+    motion_prior_.Apply(&window_);
+  } else {
+    window_ = first;
+    of_first.milliseconds_associate = statistics->milliseconds_associate;
+    of_first.milliseconds_solve = statistics->milliseconds_solve;
+    *statistics = of_first;
+  }
+}
 
 /// Whether the newest points do not hold the window, and did not for so long that its prediction is
 /// no place to start from.

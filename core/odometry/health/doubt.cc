@@ -72,6 +72,10 @@ bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const 
   return trajlo::MayHaveMoved(density, Seconds(t_ns - *held_until_ns_), kMoved_m, kMoved_rad);
 }
 
+bool DoubtWatch::IsContradicted(const Window& window) const {
+  return !Agrees(window, window.segments.back(), 0.0, kNoContradiction);
+}
+
 bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
   // A body that was never trusted has little of a map that could be spoilt.
   if (causes_ == 0 || !usual_agreement_) return true;

@@ -24,6 +24,8 @@ class DoubtWatch {
 
   /// Why the newest pose is in doubt: flags of a window, or 0.
   unsigned flags() const { return flags_; }
+  /// Whether the newest points lie on the map much worse than usual.
+  bool IsContradicted(const Window& window) const;
   /// Whether the points of a segment may extend the map.
   bool MayEnterMap(const Window& window, const Segment& segment) const;
 

@@ -28,6 +28,16 @@ SmoothnessTerm PseudoVelocity(const Window& window, int k, const Vector6d& densi
   return {window.Velocity(k - 1) * duration_s, velocity.sqrt_information / duration_s};
 }
 
+/// z: what each component is in standard deviations; 0 where the points tell nothing.
+Vector6d Normalized(const Innovation& innovation) {
+  Vector6d z = Vector6d::Zero();
+  for (int i = 0; i < 6; ++i) {
+    if (!(innovation.gain[i] > kSmallestGain)) continue;
+    z[i] = innovation.correction[i] / std::sqrt(innovation.expected_variance[i]);
+  }
+  return z;
+}
+
 /// `factor` times the mean square of three components, weighted by what the points tell; 1, which
 /// changes nothing, where they tell nothing.
 double MeanSquare(double factor, const Vector6d& values, const Innovation& innovation,
@@ -45,26 +55,38 @@ MotionPrior::MotionPrior(const MotionPriorOptions& options) : options_(options) 
   density_.tail<3>().setConstant(options.rotation_rad2_s3);
 }
 
-void MotionPrior::Apply(Window* window) const {
+void MotionPrior::UntieRotation(Window* window) const {
+  Vector6d density = density_;
+  density.tail<3>().setConstant(kLargestDensity);
+  Apply(density, window);
+}
+
+void MotionPrior::Apply(const Vector6d& density, Window* window) const {
   for (int k = 1; k < window->size(); ++k) {
     Segment& segment = window->segments[static_cast<std::size_t>(k)];
     if (options_.kind == MotionPriorKind::kPseudoVelocity) {
-      segment.motion = PseudoVelocity(*window, k, density_);
+      segment.motion = PseudoVelocity(*window, k, density);
     } else {
       segment.motion = WhiteNoiseAccelerationTerm(
-          density_, window->segments[static_cast<std::size_t>(k - 1)].Duration_s(),
+          density, window->segments[static_cast<std::size_t>(k - 1)].Duration_s(),
           segment.Duration_s());
     }
   }
 }
 
+void MotionPrior::Follow(const Innovation& innovation) {
+  if (!options_.self_tuning) return;
+  const Vector6d z = Normalized(innovation);
+  for (int part = 0; part < 2; ++part) {
+    const double surprise = std::max(1.0, MeanSquare(1.0, z, innovation, 3 * part));
+    const double density = density_[3 * part] * surprise;
+    density_.segment<3>(3 * part).setConstant(std::min(density, kLargestDensity));
+  }
+}
+
 void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
   const double decay = std::exp(-duration_s / kSumMemory_s);
-  Vector6d z = Vector6d::Zero();
-  for (int i = 0; i < 6; ++i) {
-    if (!(innovation.gain[i] > kSmallestGain)) continue;
-    z[i] = innovation.correction[i] / std::sqrt(innovation.expected_variance[i]);
-  }
+  const Vector6d z = Normalized(innovation);
   sum_ = decay * sum_ + z;
   const double floor[2] = {options_.translation_m2_s3, options_.rotation_rad2_s3};
   const double share = 1.0 - std::exp(-duration_s / kLearning_s);

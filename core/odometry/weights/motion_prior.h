@@ -82,13 +82,21 @@ class MotionPrior {
   double covariance_scale() const { return std::min(surprise_.mean(), scatter_.mean()); }
 
   /// Ties the velocities of the segments by the present densities.
-  void Apply(Window* window) const;
+  void Apply(Window* window) const { Apply(density_, window); }
+  /// The same, but of rotation hardly anything is foretold.
+  void UntieRotation(Window* window) const;
 
   /// Takes the newest innovation of a window that is believed; `duration_s` is that of the newest
   /// segment.
   void Learn(const Innovation& innovation, double duration_s);
 
+  /// Takes an innovation that the densities say cannot be, and the points say is: raises them until
+  /// they foretell as much, the likeliest value by this innovation alone.
+  void Follow(const Innovation& innovation);
+
  private:
+  void Apply(const Vector6d& density, Window* window) const;
+
   MotionPriorOptions options_;
   Vector6d density_;
   Vector6d sum_ = Vector6d::Zero();  ///< s

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A narrow view that turns fast: within a window's length it sees what the map does not have yet.
+// A body that turns fast: a narrow view sees what the map does not have yet, and a turn that begins
+// within a segment is nothing that the motion prior could foresee.
 #include <gtest/gtest.h>
 
 #include "tests/support/simulated_run.h"
@@ -21,6 +22,19 @@ TEST_P(FastTurn, IsFollowedIntoAPartOfTheWorldThatTheMapDoesNotHave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, FastTurn, ::testing::Values(2, 4, 5, 6, 8));
+
+class SuddenTurn : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(SuddenTurn, IsFollowedAfterACalmStretch) {
+  simulation::Scenario scenario = simulation::MakeScenario("corridor_glances_vlp16");
+  scenario.duration_s = 6.0;
+  scenario.seed = GetParam();
+  const SimulatedRun run(scenario);
+  EXPECT_FALSE(run.lost_at_ns);
+  EXPECT_LT(run.LargestError_m(), 0.06);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, SuddenTurn, ::testing::Values(2, 8, 16));
 
 }  // namespace
 }  // namespace trajlo

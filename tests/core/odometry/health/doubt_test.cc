@@ -53,6 +53,14 @@ TEST(MapAgreement, IsThatOfTheDirectionThatAgreesLeast) {
   EXPECT_GT(wrong.on_map, 0.85);
 }
 
+TEST(DoubtWatch, PointsThatLieOnTheMapMuchWorseThanUsualContradictIt) {
+  const DoubtWatch watch;
+  EXPECT_FALSE(watch.IsContradicted(Standing({})));
+  EXPECT_TRUE(watch.IsContradicted(Standing({500, 490, 100, 40, 0})));
+  // What has no plane says nothing.
+  EXPECT_FALSE(watch.IsContradicted(Standing({500, 490, 100, 98, 1000})));
+}
+
 TEST(MapAgreement, ADirectionThatFewPointsFaceSaysLittle) {
   EXPECT_GT(Agreement({2000, 2000, 4, 0, 0}).worst, 0.95);
   EXPECT_GT(Agreement({20, 20, 1, 0, 0}).worst, 0.95);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <variant>
 
 #include "core/odometry/solvers/window_solver.h"
 #include "tests/support/test_window.h"
@@ -55,6 +56,43 @@ TEST(MotionPrior, FallsToItsFloorAtRest) {
   Line line({});
   for (int i = 0; i < 200; ++i) line.Step(0.0, 0.0);
   EXPECT_DOUBLE_EQ(line.prior.density()[0], MotionPriorOptions().translation_m2_s3);
+}
+
+TEST(MotionPrior, FollowsWhatItDidNotForesee) {
+  MotionPrior prior({});
+  Innovation turn;
+  turn.gain << 1, 1, 1, 1, 1, 1;
+  turn.expected_variance.setOnes();
+  turn.correction << 0.5, 0, 0, 0, 0, 30;
+  prior.Follow(turn);
+  // The mean square of (0, 0, 30) is 300; the translation is within what was foreseen.
+  EXPECT_DOUBLE_EQ(prior.density()[0], MotionPriorOptions().translation_m2_s3);
+  EXPECT_DOUBLE_EQ(prior.density()[5], 300.0 * MotionPriorOptions().rotation_rad2_s3);
+  // Foretold now, it is no surprise any more.
+  turn.expected_variance.tail<3>() *= 300.0;
+  prior.Follow(turn);
+  EXPECT_DOUBLE_EQ(prior.density()[5], 300.0 * MotionPriorOptions().rotation_rad2_s3);
+
+  MotionPriorOptions fixed;
+  fixed.self_tuning = false;
+  MotionPrior stays(fixed);
+  turn.expected_variance.setOnes();
+  stays.Follow(turn);
+  EXPECT_DOUBLE_EQ(stays.density()[5], fixed.rotation_rad2_s3);
+}
+
+TEST(MotionPrior, RotationAloneIsUntied) {
+  Window window = testing::MakeTestWindow(3);
+  const MotionPrior prior({});
+  prior.Apply(&window);
+  const auto sqrt_information = [&] {
+    return std::get<WhiteNoiseAccelerationTerm>(window.segments[1].motion).sqrt_information;
+  };
+  const Vector6d tied = sqrt_information();
+  prior.UntieRotation(&window);
+  const Vector6d untied = sqrt_information();
+  EXPECT_EQ(untied.head<3>(), tied.head<3>());
+  EXPECT_LT(untied.tail<3>().maxCoeff(), 0.01 * tied.tail<3>().minCoeff());
 }
 
 /// The car that the paper's prior loses: 3 m/s² for ten seconds, after ten seconds of rest.
