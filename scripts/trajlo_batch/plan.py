@@ -5,6 +5,7 @@ A run is done when its status.json carries the digests of its job. What has chan
 OUTPUT/replaced/ before anything new is written, so that no result is ever overwritten.
 """
 import dataclasses
+import shutil
 
 from trajlo_batch import checks
 from trajlo_batch.kitti_calib import camera_in_lidar
@@ -145,9 +146,20 @@ def set_aside(places, run):
 
 
 def write_if_changed(path, value):
-    """Snakemake goes by times of files: what says the same must not become newer."""
-    if read_json_if(path) != value:
+    """Snakemake goes by times of files: what says the same must not become newer. Returns whether
+    it says something else now."""
+    changed = read_json_if(path) != value
+    if changed:
         write_json(path, value)
+    return changed
+
+
+def remove_recording(output, name):
+    """One of another simulator or of other parameters. Left in place, Snakemake would make it anew,
+    but none of the runs, which take a recording of any age."""
+    shutil.rmtree(output / "recordings" / name, ignore_errors=True)
+    for suffix in (".tum", ".yaml"):
+        (output / "truth" / f"{name}{suffix}").unlink(missing_ok=True)
 
 
 def write_recording_jobs(plan):
@@ -161,8 +173,9 @@ def write_recording_jobs(plan):
         path = plan.places.output / "recordings" / f"{sequence.name}.json"
         job = {"recording": runs[0].job["recording"], "program": plan.programs["trajlo_simulate"]}
         # With finished runs of another version that are kept, the recording is kept as well.
-        if any(run.state != DONE for run in runs) or not path.is_file():
-            write_if_changed(path, job)
+        is_asked = any(run.state != DONE for run in runs) or not path.is_file()
+        if is_asked and write_if_changed(path, job):
+            remove_recording(plan.places.output, sequence.name)
     return names
 
 

@@ -151,6 +151,16 @@ class BatchTest(FolderTest):
         self.assertEqual(len(list((self.output / "replaced" / "plain").iterdir())), 2)
         self.assertNotEqual(self.statuses(), after)
 
+        # Another simulator: new recordings, and new runs of them.
+        simulator = self.folder / "build" / "apps" / "trajlo_simulate"
+        simulator.unlink()
+        simulator.write_bytes(pathlib.Path(built("trajlo_simulate")).read_bytes() + b"newer")
+        simulator.chmod(0o755)
+        newer = self.batch(SUITE + "    set: {window.segments: 3}\n")
+        self.assertEqual(newer.returncode, 0, newer.log)
+        self.assertEqual(len(list((self.output / "replaced" / "plain").iterdir())), 4)
+        self.assertEqual([row["result"] for row in self.rows()], ["ok", "ok"])
+
     def test_runs_that_fail_are_an_x_and_the_batch_goes_on(self):
         suite = SUITE.replace("[1, 2]", "[1]") + FAILING
         done = self.batch(suite, "--only", "plain/*")
