@@ -56,7 +56,7 @@ inline Window MakeNoisyWindow(double noise_m, double outliers = 0.0,
   Window window = MakeTestWindow(1, points_per_segment);
   Random random(2);
   for (int k = 0; k < window.size(); ++k) {
-    Segment& segment = window.segments[static_cast<std::size_t>(k)];
+    Segment& segment = window.At(k);
     for (RegistrationPoint& point : segment.points) {
       const SE3 T = Interpolate(window.Pose(k), segment.T_world_end, point.alpha);
       const double off_m = random.Uniform(0, 1) < outliers ? 1.0 : random.Gaussian(noise_m);

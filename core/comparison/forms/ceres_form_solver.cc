@@ -46,8 +46,7 @@ ceres::Solver::Options MakeSolverOptions(const CeresFormOptions& form, int steps
 /// The registration of segment k in another form.
 void AddRegistration(const CeresFormOptions& form, const Window& window, int k,
                      std::array<RobustKernelLoss, 3>* losses, CeresBlocks* blocks) {
-  const std::vector<RegistrationPoint>& points =
-      window.segments[static_cast<std::size_t>(k)].points;
+  const std::vector<RegistrationPoint>& points = window.At(k).points;
   if (points.empty()) return;
   const double sigma_m = window.noise.sigma_m;
   const auto loss_of = [&](const RegistrationPoint& point) {
@@ -92,7 +91,7 @@ SolveSummary CeresFormSolver::Solve(Window* window) {
   CeresBlocks blocks(&poses, nullptr);
   for (int k = 0; k < window->size(); ++k) {
     AddRegistration(form_, *window, k, &losses, &blocks);
-    blocks.AddMotion(window->segments[static_cast<std::size_t>(k)].motion, k);
+    blocks.AddMotion(window->At(k).motion, k);
   }
   blocks.AddPrior(window->prior);
   const SolveSummary summary =

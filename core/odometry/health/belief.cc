@@ -28,7 +28,7 @@ constexpr double kDegenerate_m = 0.1;
 
 bool IsBelievable(const WindowStatistics& statistics, const Window& window) {
   for (int k = 0; k < window.size(); ++k) {
-    const double duration_s = window.segments[static_cast<std::size_t>(k)].Duration_s();
+    const double duration_s = window.At(k).Duration_s();
     if (!IsWithinReach(window.Pose(k), window.Pose(k + 1), duration_s)) return false;
   }
   return statistics.is_finite && statistics.correction.translation_m <= kMaxCorrection_m &&

@@ -20,7 +20,7 @@ struct RigidInformation {
   explicit RigidInformation(const Window& window) {
     const SE3& newest = window.Pose(window.size());
     for (int k = 0; k < window.size(); ++k) {
-      const Segment& segment = window.segments[static_cast<std::size_t>(k)];
+      const Segment& segment = window.At(k);
       // A rigid motion xi of the newest frame moves T_j by Adj(T_j⁻¹ T_newest) xi.
       Eigen::Matrix<double, 12, 6> A;
       A << se3::Adjoint(window.Pose(k).Inverse() * newest),
@@ -51,7 +51,7 @@ double SpreadOverPlaces(const Window& window, const Vector6d& u) {
   Eigen::Array<double, kGroups, 1> sums = Eigen::Array<double, kGroups, 1>::Zero();
   const SE3& newest = window.Pose(window.size());
   for (int k = 0; k < window.size(); ++k) {
-    const SpuriousInformation& spurious = window.segments[static_cast<std::size_t>(k)].spurious;
+    const SpuriousInformation& spurious = window.At(k).spurious;
     const Vector6d u_begin = se3::Adjoint(window.Pose(k).Inverse() * newest) * u;
     for (int i = 0; i < kGroups; ++i) {
       sums[i] += u_begin.dot(spurious.by_place[static_cast<std::size_t>(i)] * u_begin);

@@ -22,8 +22,8 @@ constexpr double kSmallestGain = 1e-3;
 
 /// The paper's term: the velocity of the segment before, as estimated, is taken for known.
 SmoothnessTerm PseudoVelocity(const Window& window, int k, const Vector6d& density) {
-  const double duration_s = window.segments[static_cast<std::size_t>(k)].Duration_s();
-  const double before_s = window.segments[static_cast<std::size_t>(k - 1)].Duration_s();
+  const double duration_s = window.At(k).Duration_s();
+  const double before_s = window.At(k - 1).Duration_s();
   const WhiteNoiseAccelerationTerm velocity(density, before_s, duration_s);
   return {window.Velocity(k - 1) * duration_s, velocity.sqrt_information / duration_s};
 }
@@ -63,13 +63,12 @@ void MotionPrior::UntieRotation(Window* window) const {
 
 void MotionPrior::Apply(const Vector6d& density, Window* window) const {
   for (int k = 1; k < window->size(); ++k) {
-    Segment& segment = window->segments[static_cast<std::size_t>(k)];
+    Segment& segment = window->At(k);
     if (options_.kind == MotionPriorKind::kPseudoVelocity) {
       segment.motion = PseudoVelocity(*window, k, density);
     } else {
-      segment.motion = WhiteNoiseAccelerationTerm(
-          density, window->segments[static_cast<std::size_t>(k - 1)].Duration_s(),
-          segment.Duration_s());
+      segment.motion =
+          WhiteNoiseAccelerationTerm(density, window->At(k - 1).Duration_s(), segment.Duration_s());
     }
   }
 }

@@ -17,7 +17,7 @@ int AssociateWindow(const MapPyramid& map, const StepSize& tolerance, ThreadPool
   std::vector<Chunk> chunks;
   // The newest segment asks in cells that nobody has asked in: the longest work first.
   for (int k = window->size() - 1; k >= 0; --k) {
-    Segment& segment = window->segments[static_cast<std::size_t>(k)];
+    Segment& segment = window->At(k);
     const SegmentCloud& cloud = segment.cloud;
     const std::size_t count =
         segment.association.Begin(cloud.registration_points, cloud.lidar_origins_body_m,

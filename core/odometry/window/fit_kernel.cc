@@ -70,7 +70,7 @@ std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window
   std::array<std::size_t, 3> to_pass = {};
   std::array<std::vector<WeighedDistance>, 3> distances;
   for (int k = 0; k < window.size(); ++k) {
-    const Segment& segment = window.segments[static_cast<std::size_t>(k)];
+    const Segment& segment = window.At(k);
     const SegmentMotion motion(window.Pose(k), segment.T_world_end);
     for (const RegistrationPoint& point : segment.points) {
       const auto axis = static_cast<std::size_t>(point.axis);

@@ -22,7 +22,7 @@ constexpr std::size_t kAsked = 128;
 double PointScatter(const Window& window) {
   std::vector<double> sampled;
   for (int k = 0; k < window.size(); ++k) {
-    const Segment& segment = window.segments[static_cast<std::size_t>(k)];
+    const Segment& segment = window.At(k);
     ForEachDistance(segment.points, SegmentMotion(window.Pose(k), segment.T_world_end),
                     1 + segment.points.size() / kAsked,
                     [&](const RegistrationPoint&, double distance_m) {

@@ -55,7 +55,7 @@ void RegistrationEvaluator::Evaluate(Window* window, const std::vector<SE3>& pos
 
 void ShiftRegistration(Window* window) {
   for (int k = 0; k < window->size(); ++k) {
-    Segment& segment = window->segments[static_cast<std::size_t>(k)];
+    Segment& segment = window->At(k);
     segment.registration = segment.linearization->At(window->Pose(k), window->Pose(k + 1));
   }
 }

@@ -61,10 +61,10 @@ struct Window {
   bool is_believed = true;
 
   int size() const { return static_cast<int>(segments.size()); }
+  const Segment& At(int k) const { return segments[static_cast<std::size_t>(k)]; }
+  Segment& At(int k) { return segments[static_cast<std::size_t>(k)]; }
   /// The K+1 control poses, oldest first.
-  const SE3& Pose(int k) const {
-    return k == 0 ? T_world_begin : segments[Index(k - 1)].T_world_end;
-  }
+  const SE3& Pose(int k) const { return k == 0 ? T_world_begin : At(k - 1).T_world_end; }
   std::vector<SE3> Poses() const {
     std::vector<SE3> poses = {T_world_begin};
     for (const Segment& segment : segments) poses.push_back(segment.T_world_end);
@@ -76,12 +76,7 @@ struct Window {
     for (std::size_t k = 0; k < segments.size(); ++k) segments[k].T_world_end = poses[k + 1];
   }
   /// The mean twist over segment k, [rho; theta] per second, in the body frame at its begin.
-  Vector6d Velocity(int k) const {
-    return Minus(Pose(k + 1), Pose(k)) / segments[Index(k)].Duration_s();
-  }
-
- private:
-  static std::size_t Index(int k) { return static_cast<std::size_t>(k); }
+  Vector6d Velocity(int k) const { return Minus(Pose(k + 1), Pose(k)) / At(k).Duration_s(); }
 };
 
 }  // namespace trajlo

@@ -220,8 +220,7 @@ TEST(MotionPrior, ThePapersPseudoVelocityIsTheVelocityOfTheSegmentBefore) {
   Window window = testing::MakeTestWindow(4);
   MotionPrior(options).Apply(&window);
   for (int k = 1; k < 4; ++k) {
-    const auto& term =
-        std::get<SmoothnessTerm>(window.segments[static_cast<std::size_t>(k)].motion);
+    const auto& term = std::get<SmoothnessTerm>(window.At(k).motion);
     EXPECT_LT((term.tau_expected - 0.03 * window.Velocity(k - 1)).norm(), 1e-12);
     // sigma² = q (2/3) dt³
     EXPECT_NEAR(term.sqrt_information[0], 1.0 / std::sqrt(0.5 * 2.0 / 3.0 * 2.7e-5), 1e-6);

@@ -30,7 +30,7 @@ template <typename F>
 Window MakeRoad(const Eigen::Vector3d& facing_world, int rare, F off_m) {
   Window window = MakeNoisyWindow(0.0);
   for (int k = 0; k < window.size(); ++k) {
-    Segment& segment = window.segments[static_cast<std::size_t>(k)];
+    Segment& segment = window.At(k);
     int i = 0;
     for (RegistrationPoint& point : segment.points) {
       const bool is_on_post = i++ % rare == 0;
