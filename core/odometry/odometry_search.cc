@@ -28,28 +28,27 @@ double NewestAgreement(const Window& window) {
 /// follows.
 void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics) {
   const Window first = window_;
-  WindowStatistics of_first = *statistics;
   window_.SetPoses(predicted);
   Segment& newest = window_.segments.back();
   newest.registration = {};
   newest.association = {};
   for (Segment& segment : window_.segments) segment.linearization.reset();
   motion_prior_.UntieRotation(&window_);
-  *statistics = WindowStatistics();
-  statistics->restless = of_first.restless;
-  AssociateAndSolve(statistics);
-  statistics->milliseconds_associate += of_first.milliseconds_associate;
-  statistics->milliseconds_solve += of_first.milliseconds_solve;
-  const bool is_better = statistics->is_finite && NewestAgreement(window_) > NewestAgreement(first);
-  if (is_better) {
+  WindowStatistics again;
+  again.restless = statistics->restless;
+  // Both looks take time, whichever is kept.
+  again.milliseconds_associate = statistics->milliseconds_associate;
+  again.milliseconds_solve = statistics->milliseconds_solve;
+  AssociateAndSolve(&again);
+  if (again.is_finite && NewestAgreement(window_) > NewestAgreement(first)) {
     motion_prior_.Apply(&window_);
     motion_prior_.Follow(MeasureInnovation(window_, predicted.back()));
     motion_prior_.Apply(&window_);
+    *statistics = again;
   } else {
     window_ = first;
-    of_first.milliseconds_associate = statistics->milliseconds_associate;
-    of_first.milliseconds_solve = statistics->milliseconds_solve;
-    *statistics = of_first;
+    statistics->milliseconds_associate = again.milliseconds_associate;
+    statistics->milliseconds_solve = again.milliseconds_solve;
   }
 }
 

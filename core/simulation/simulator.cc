@@ -49,7 +49,7 @@ void AddClutter(const Vector3d& ray, const MeasurementModel& model, CounterRando
                 std::optional<RayHit>* hit) {
   if (random->Uniform() >= model.clutter_fraction) return;
   const double range_m = -model.clutter_range_m * std::log(1.0 - random->Uniform());
-  if (*hit && (*hit)->range_m < range_m) return;
+  if (range_m > (*hit ? (*hit)->range_m : model.max_range_m)) return;
   *hit = RayHit{range_m, -ray, 0.05F};
 }
 

@@ -100,5 +100,20 @@ TEST(Clutter, ReplacesAsManyReturnsAsAskedByNearerOnes) {
   EXPECT_NEAR(nearer / expected, 1.0, 0.05);
 }
 
+TEST(Clutter, IsNoFartherThanTheSensorSees) {
+  Scenario scenario;
+  scenario.rig = {MakeLidar("os1_16")};
+  scenario.duration_s = 1.0;
+  MeasurementModel& model = scenario.rig[0].measurement;
+  model.range_sigma_m = 0.0;
+  model.max_range_m = 1.0;  // The walls are farther.
+  model.clutter_fraction = 1.0;
+  model.clutter_range_m = 10.0;
+  const Simulator simulator(scenario, MakeHollowCube(), [](double) { return SE3(); });
+  const SimulatedScan scan = simulator.SimulateScan(0, 0);
+  EXPECT_GT(scan.scan.points.size(), 100u);
+  for (const LidarPoint& point : scan.scan.points) EXPECT_LT(point.xyz_m.norm(), 1.0F + 1e-5F);
+}
+
 }  // namespace
 }  // namespace trajlo::simulation
