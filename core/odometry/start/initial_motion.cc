@@ -10,11 +10,8 @@
 #include <vector>
 
 #include "core/odometry/segments/voxel_filter.h"
-#include "core/odometry/window/association.h"
+#include "core/odometry/start/motion_hypothesis.h"
 #include "core/scans/median.h"
-#include "factors/plane_distances.h"
-#include "factors/segment_linearizer.h"
-#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -26,8 +23,6 @@ constexpr int kDampedFrom = 8;
 /// The second half has one point in a cell of this size, and no fewer: few may face a direction
 /// that is held weakly.
 constexpr double kSpacing_m = 0.4;
-/// A point this near to its plane speaks for a hypothesis.
-constexpr double kAgreementM = 0.05;
 /// A start faster than this is not expected; it only holds directions that nobody measures.
 constexpr double kPriorSigmaM = 10.0;
 constexpr double kPriorSigmaRad = 2.0;
@@ -53,74 +48,15 @@ constexpr double kSteady = 0.7;
 constexpr double kSayingSo = 0.5;
 /// A direction with less than this share of the information is held weakly.
 constexpr double kWeakShare = 0.02;
-/// Planes whose normals have at least this cosine with a direction face it.
-constexpr double kFacing = 0.5;
 /// The search along a weak direction has so many starts, so far apart: 50 m/s over 0.3 s.
-constexpr int kSearchStarts = 16;
+constexpr std::size_t kSearchStarts = 16;
 constexpr double kSearchStep_m = 2.0;
 constexpr int kSearchFirstRound = 2;
 constexpr int kSearchLastRound = 11;
+/// The size of a place, in median ranges.
+constexpr double kPlaceInMedians = 0.5;
 /// Of a number of points that agree by chance.
 constexpr double kClearDeviations = 5.0;
-
-/// The first half's points as a map, moved with the hypothesis, and the second half's planes in it.
-class Hypothesis {
- public:
-  Hypothesis(const SegmentCloud& cloud, const std::vector<SegmentPoint>& second_half,
-             const Vector6d& tau, const MapPyramidOptions& map_options, ThreadPool* threads)
-      : T_end_(se3::Exp(tau)), points_(static_cast<double>(second_half.size())) {
-    const SegmentMotion motion(SE3(), T_end_);
-    std::vector<Eigen::Vector3d> first_half;
-    for (const SegmentPoint& point : cloud.map_points) {
-      if (point.alpha >= 0.5F) continue;
-      first_half.push_back(motion.ToWorld(point.alpha, point.p_body_m.cast<double>()));
-    }
-    MapPyramid map(map_options);
-    map.Insert(first_half);
-    SegmentAssociation().Associate(second_half, cloud.lidar_origins_body_m, SE3(), T_end_, map,
-                                   threads, &points_with_plane_);
-  }
-
-  RegistrationNormalEquations Linearize(const RegistrationNoise& noise) const {
-    return LinearizeSegment(points_with_plane_, SE3(), T_end_, noise);
-  }
-
-  /// Share of the second half's points that lie within kAgreementM of a plane. With `direction` (a
-  /// unit vector in the world), only of planes that face it: these tell how far one has moved along
-  /// it, whatever the others say.
-  double Agreement(const std::optional<Eigen::Vector3d>& direction = std::nullopt) const {
-    int agreeing = 0;
-    ForEachDistance(points_with_plane_, SegmentMotion(SE3(), T_end_), 1,
-                    [&](const RegistrationPoint& point, double distance_m) {
-                      if (direction && !IsFacing(point, *direction)) return;
-                      agreeing += std::abs(distance_m) < kAgreementM ? 1 : 0;
-                    });
-    return agreeing / points_;
-  }
-
-  /// The same, as a share of the points that have a plane.
-  double AgreementWithPlanes() const {
-    const auto with_plane = static_cast<double>(points_with_plane_.size());
-    return with_plane > 0.0 ? Agreement() * points_ / with_plane : 0.0;
-  }
-
-  /// Share of the second half's points that have a plane which faces `direction`, near or far.
-  double Facing(const Eigen::Vector3d& direction) const {
-    return static_cast<double>(std::count_if(
-               points_with_plane_.begin(), points_with_plane_.end(),
-               [&](const RegistrationPoint& point) { return IsFacing(point, direction); })) /
-           points_;
-  }
-
- private:
-  static bool IsFacing(const RegistrationPoint& point, const Eigen::Vector3d& direction) {
-    return std::abs(point.normal_world.dot(direction)) >= kFacing;
-  }
-
-  SE3 T_end_;
-  double points_;
-  std::vector<RegistrationPoint> points_with_plane_;
-};
 
 /// The first interval, and ways to look at it.
 class FirstInterval {
@@ -134,25 +70,25 @@ class FirstInterval {
       if (point.alpha >= 0.5F) all.push_back(point);
     }
     VoxelFilter(kSpacing_m).Filter(all, &second_half_);
+    std::vector<float> ranges_m;
+    for (const SegmentPoint& point : second_half_) ranges_m.push_back(point.p_body_m.norm());
+    place_m_ = kPlaceInMedians * UpperMedian(std::move(ranges_m));
   }
 
   bool is_empty() const { return second_half_.empty(); }
-  /// Points of the second half.
-  double size() const { return static_cast<double>(second_half_.size()); }
 
-  Hypothesis At(const Vector6d& tau) const {
-    return Hypothesis(cloud_, second_half_, tau, map_options_, threads_);
+  MotionHypothesis At(const Vector6d& tau) const {
+    return MotionHypothesis(cloud_, second_half_, tau, map_options_, threads_);
   }
 
-  double Agreement(const Vector6d& tau,
-                   const std::optional<Eigen::Vector3d>& direction = std::nullopt) const {
-    return At(tau).Agreement(direction);
+  int VotesAlong(const Eigen::Vector3d& direction, const Vector6d& tau) const {
+    return At(tau).VotesAlong(direction, place_m_);
   }
 
   /// Whether what faces a direction says that the motion along it is the right one.
   bool IsShownAlong(const Eigen::Vector3d& direction, const Vector6d& tau) const {
-    const Hypothesis hypothesis = At(tau);
-    return hypothesis.Agreement(direction) > kSayingSo * hypothesis.Facing(direction);
+    const MotionHypothesis hypothesis = At(tau);
+    return hypothesis.AgreeingAlong(direction) > kSayingSo * hypothesis.FacingAlong(direction);
   }
 
   /// The motion near `tau` by rounds of registration; the first ones see coarsely.
@@ -189,7 +125,7 @@ class FirstInterval {
     map.finest.voxel_size_m *= coarse;
     RegistrationOptions registration = registration_;
     registration.kernel_m *= coarse;
-    return Hypothesis(cloud_, second_half_, tau, map, threads_)
+    return MotionHypothesis(cloud_, second_half_, tau, map, threads_)
         .Linearize(MakeRegistrationNoise(registration));
   }
 
@@ -198,30 +134,28 @@ class FirstInterval {
   const RegistrationOptions& registration_;
   ThreadPool* threads_;
   std::vector<SegmentPoint> second_half_;
+  double place_m_ = 0.0;  ///< See MotionHypothesis.
 };
 
 /// Where the points hold one direction weakly (along a road), a search ends near where it starts.
-/// So it is started again at steps along that direction, and judged by the planes that face it: at
-/// one of them, many more points must agree than chance brings about at the others.
+/// So it is started again at steps along that direction, and judged by the planes that face it: for
+/// one of them, many more must vote than chance brings about at the others.
 Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& interval,
-                     const Vector6d& found) {
+                     const Vector6d& found, ThreadPool* threads) {
   const double found_m = found.head<3>().dot(direction);
-  Vector6d best = found;
-  double best_agreement = interval.Agreement(found, direction);
-  std::vector<double> agreements;
-  for (int i = 0; i < kSearchStarts; ++i) {
-    const double start_m = kSearchStep_m * (i - 0.5 * (kSearchStarts - 1));
-    Vector6d start = found;
-    start.head<3>() += (start_m - found_m) * direction;
-    const Vector6d tau = interval.Refine(start, kSearchFirstRound, kSearchLastRound);
-    agreements.push_back(interval.Agreement(tau, direction));
-    if (agreements.back() <= best_agreement) continue;
-    best = tau;
-    best_agreement = agreements.back();
-  }
-  const double chance = interval.size() * UpperMedian(std::move(agreements));
-  const double clear = chance + kClearDeviations * std::sqrt(std::max(chance, 1.0));
-  if (interval.size() * best_agreement < clear) return found;
+  std::vector<Vector6d> taus(kSearchStarts, found);
+  std::vector<int> votes(kSearchStarts);
+  threads->ParallelFor(kSearchStarts, [&](std::size_t i) {
+    const double start_m = kSearchStep_m * (static_cast<double>(i) - 0.5 * (kSearchStarts - 1));
+    taus[i].head<3>() += (start_m - found_m) * direction;
+    taus[i] = interval.Refine(taus[i], kSearchFirstRound, kSearchLastRound);
+    votes[i] = interval.VotesAlong(direction, taus[i]);
+  });
+  const auto most = std::max_element(votes.begin(), votes.end());
+  if (*most <= interval.VotesAlong(direction, found)) return found;
+  const double by_chance = UpperMedian(votes);
+  if (*most < by_chance + kClearDeviations * std::sqrt(std::max(by_chance, 1.0))) return found;
+  const Vector6d& best = taus[static_cast<std::size_t>(most - votes.begin())];
   return interval.Refine(best, kSearchFirstRound, kRounds);
 }
 
@@ -233,17 +167,17 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
   const FirstInterval interval(cloud, map_options, registration, threads);
   if (interval.is_empty()) return motion;
   motion.tau = interval.Refine(Vector6d::Zero(), 0, kRounds);
-  motion.agreement_at_rest = interval.Agreement(Vector6d::Zero());
+  motion.agreeing_at_rest = interval.At(Vector6d::Zero()).Agreeing();
   const auto direction = interval.WeakDirection(motion.tau);
   const bool is_at_rest = motion.tau.head<3>().norm() < kAtRest_m;
   if (direction && !(is_at_rest && interval.IsShownAlong(*direction, motion.tau))) {
-    motion.tau = SearchAlong(*direction, interval, motion.tau);
-    motion.facing_agreement = interval.Agreement(motion.tau, direction);
-    motion.facing_agreement_at_rest = interval.Agreement(Vector6d::Zero(), direction);
+    motion.tau = SearchAlong(*direction, interval, motion.tau, threads);
+    motion.votes = interval.VotesAlong(*direction, motion.tau);
+    motion.votes_at_rest = interval.VotesAlong(*direction, Vector6d::Zero());
   }
-  const Hypothesis found = interval.At(motion.tau);
-  motion.agreement = found.Agreement();
-  motion.agreement_with_planes = found.AgreementWithPlanes();
+  const MotionHypothesis found = interval.At(motion.tau);
+  motion.agreeing = found.Agreeing();
+  motion.with_plane = found.WithPlane();
   return motion;
 }
 
@@ -255,10 +189,10 @@ FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const Initializatio
   const InitialMotion motion = EstimateInitialMotion(cloud, map_options, registration, threads);
   const double way_m = motion.tau.head<3>().norm();
   const bool hardly_moves = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
-  const bool is_steady = hardly_moves || motion.agreement_with_planes > kSteady;
+  const bool is_steady = hardly_moves || motion.agreeing > kSteady * motion.with_plane;
   const double gain = way_m > kClearMotion_m ? 1.0 : kMinGain;
-  const bool is_believed = motion.agreement > gain * motion.agreement_at_rest ||
-                           motion.facing_agreement > gain * motion.facing_agreement_at_rest;
+  const bool is_believed = motion.agreeing > gain * motion.agreeing_at_rest ||
+                           motion.votes > gain * motion.votes_at_rest;
   if (!is_believed) return {Vector6d::Zero(), is_steady};
   return {motion.tau / duration_s, is_steady};
 }

@@ -12,16 +12,16 @@ namespace trajlo {
 struct InitialMotion {
   /// The body's twist over the whole first interval: T(alpha) = Exp(alpha tau).
   Vector6d tau = Vector6d::Zero();
-  /// Share of the second half's points that lie on planes of the first half under tau, and under
-  /// the hypothesis that the sensor stood still.
-  double agreement = 0.0;
-  double agreement_at_rest = 0.0;
-  /// The same, of planes that face the direction which is held weakly, if one is: of the others,
-  /// many agree with any motion along it.
-  double facing_agreement = 0.0;
-  double facing_agreement_at_rest = 0.0;
-  /// As `agreement`, but of the points that have a plane.
-  double agreement_with_planes = 0.0;
+  /// How many points of the second half lie on planes of the first half under tau, and under the
+  /// hypothesis that the sensor stood still.
+  int agreeing = 0;
+  int agreeing_at_rest = 0;
+  /// How many have a plane under tau.
+  int with_plane = 0;
+  /// See MotionHypothesis::VotesAlong: of planes that face the direction which is held weakly, if
+  /// one is. Of the others, many agree with any motion along it.
+  int votes = 0;
+  int votes_at_rest = 0;
 };
 
 /// Finds how the sensor moved during the first interval from nothing but the interval itself: the

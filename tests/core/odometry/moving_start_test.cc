@@ -28,15 +28,20 @@ simulation::Scenario ScenarioOf(const Start& start, double duration_s) {
   return scenario;
 }
 
-/// At 30 m/s the road agrees with any speed, and the cars beside it with rest.
-class OnAMotorway : public ::testing::TestWithParam<std::uint64_t> {};
+/// At 30 m/s the road agrees with any speed, and the cars beside it with rest. Where the body
+/// bounces, the rings of two sweeps behind it seem to be walls, which agree with rest, too.
+class OnAMotorway : public ::testing::TestWithParam<Start> {};
 
 TEST_P(OnAMotorway, TheSpeedIsFound) {
-  const testing::SimulatedRun run(ScenarioOf({"motorway_hdl64", GetParam()}, 0.8));
+  const testing::SimulatedRun run(ScenarioOf(GetParam(), 0.8));
   EXPECT_LT(run.LargestError_m(), 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(MovingStart, OnAMotorway, ::testing::Values(1, 4, 5));
+INSTANTIATE_TEST_SUITE_P(MovingStart, OnAMotorway,
+                         ::testing::Values(Start{"motorway_hdl64", 1}, Start{"motorway_hdl64", 4},
+                                           Start{"motorway_hdl64", 5},
+                                           Start{"motorway_hdl64", 3, 1.4},
+                                           Start{"motorway_hdl64", 16, 1.4}));
 
 /// In a flight with quick turns no constant twist explains the first 0.3 s.
 class InAFlight : public ::testing::TestWithParam<Start> {};

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/start/motion_hypothesis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/odometry/window/association.h"
+#include "factors/plane_distances.h"
+#include "manifolds/se3_interpolation.h"
+
+namespace trajlo {
+namespace {
+
+/// A point this near to its plane agrees.
+constexpr double kAgreement_m = 0.05;
+/// Planes whose normals have at least this cosine with a direction face it.
+constexpr double kFacing = 0.5;
+/// So many moments has the interval.
+constexpr double kMoments = 100.0;
+/// So many points of a moment, or of a place, count.
+constexpr int kMostVotes = 8;
+
+bool IsFacing(const RegistrationPoint& point, const Eigen::Vector3d& direction) {
+  return std::abs(point.normal_world.dot(direction)) >= kFacing;
+}
+
+}  // namespace
+
+MotionHypothesis::MotionHypothesis(const SegmentCloud& interval,
+                                   const std::vector<SegmentPoint>& second_half,
+                                   const Vector6d& tau, const MapPyramidOptions& map_options,
+                                   ThreadPool* threads)
+    : T_end_(se3::Exp(tau)) {
+  const SegmentMotion motion(SE3(), T_end_);
+  std::vector<Eigen::Vector3d> first_half;
+  for (const SegmentPoint& point : interval.map_points) {
+    if (point.alpha >= 0.5F) continue;
+    first_half.push_back(motion.ToWorld(point.alpha, point.p_body_m.cast<double>()));
+  }
+  MapPyramid map(map_options);
+  map.Insert(first_half);
+  SegmentAssociation().Associate(second_half, interval.lidar_origins_body_m, SE3(), T_end_, map,
+                                 threads, &points_);
+}
+
+RegistrationNormalEquations MotionHypothesis::Linearize(const RegistrationNoise& noise) const {
+  return LinearizeSegment(points_, SE3(), T_end_, noise);
+}
+
+template <typename Function>
+void MotionHypothesis::ForEachAgreeing(const Function& function) const {
+  ForEachDistance(points_, SegmentMotion(SE3(), T_end_), 1,
+                  [&](const RegistrationPoint& point, double distance_m) {
+                    if (std::abs(distance_m) < kAgreement_m) function(point);
+                  });
+}
+
+int MotionHypothesis::Agreeing() const {
+  int count = 0;
+  ForEachAgreeing([&](const RegistrationPoint&) { ++count; });
+  return count;
+}
+
+int MotionHypothesis::AgreeingAlong(const Eigen::Vector3d& direction) const {
+  int count = 0;
+  ForEachAgreeing(
+      [&](const RegistrationPoint& point) { count += IsFacing(point, direction) ? 1 : 0; });
+  return count;
+}
+
+int MotionHypothesis::FacingAlong(const Eigen::Vector3d& direction) const {
+  return static_cast<int>(
+      std::count_if(points_.begin(), points_.end(),
+                    [&](const RegistrationPoint& point) { return IsFacing(point, direction); }));
+}
+
+int MotionHypothesis::VotesAlong(const Eigen::Vector3d& direction, double place_m) const {
+  std::map<int, int> of_moment;
+  std::map<std::array<int, 3>, int> of_place;
+  int votes = 0;
+  ForEachAgreeing([&](const RegistrationPoint& point) {
+    if (!IsFacing(point, direction)) return;
+    int& moment = of_moment[static_cast<int>(point.alpha * kMoments)];
+    if (moment == kMostVotes) return;
+    ++moment;
+    const VoxelKey at = VoxelAt(point.p_body_m, 1.0 / place_m);
+    int& place = of_place[{at.x(), at.y(), at.z()}];
+    if (place == kMostVotes) return;
+    ++place;
+    ++votes;
+  });
+  return votes;
+}
+
+}  // namespace trajlo
