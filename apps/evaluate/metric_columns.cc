@@ -57,6 +57,20 @@ void AddRelative(const RelativeErrorOptions& piece, std::size_t index,
   add("_point_distance_rmse_m", " dist. [m]", 3, &PoseErrorStatistics::point_distance_m, false);
 }
 
+/// So many that three digits of the smallest value are seen, but at most two more than usual:
+/// estimates that differ by a tenth of a millimetre are not the same.
+int Decimals(const MetricColumn& column, const EvaluationReport& report) {
+  constexpr int kDigits = 3, kMore = 2;
+  int decimals = column.decimals;
+  for (const EstimateReport& estimate : report.estimates) {
+    if (!estimate.evaluation) continue;
+    const double value = column.value(*estimate.evaluation).value_or(0.0);
+    if (!(value > std::pow(10.0, -column.decimals - kMore))) continue;
+    decimals = std::max(decimals, kDigits - 1 - static_cast<int>(std::floor(std::log10(value))));
+  }
+  return std::min(decimals, column.decimals + kMore);
+}
+
 }  // namespace
 
 std::string PieceName(const RelativeErrorOptions& piece) {
@@ -87,7 +101,9 @@ std::vector<MetricColumn> MainColumns(const EvaluationReport& report,
     const bool known = std::any_of(
         report.estimates.begin(), report.estimates.end(),
         [&](const EstimateReport& e) { return e.evaluation && column.value(*e.evaluation); });
-    if (known) main.push_back(std::move(column));
+    if (!known) continue;
+    column.decimals = Decimals(column, report);
+    main.push_back(std::move(column));
   }
   return main;
 }

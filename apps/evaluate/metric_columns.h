@@ -28,7 +28,8 @@ struct MetricColumn {
 /// Absolute errors, relative errors of the pieces asked for, and KITTI's errors.
 std::vector<MetricColumn> MetricColumns(const std::vector<RelativeErrorOptions>& pieces);
 
-/// The main columns that at least one estimate has a value in.
+/// The main columns that at least one estimate has a value in, with decimals enough to tell the
+/// estimates apart.
 std::vector<MetricColumn> MainColumns(const EvaluationReport& report,
                                       const std::vector<RelativeErrorOptions>& pieces);
 

@@ -85,8 +85,9 @@ TEST_F(TrajloEvaluateTest, SeveralEstimatesShareATableThatMarksTheBestAndTheDive
   const Outcome outcome = Call({"worse.tum", "good.tum", "lost.tum", "--truth=" + Path("truth.tum"),
                                 "--names=peer,ours,third"});
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("0.005 *"), HasSubstr("0.100  "), HasSubstr("20.000 x"),
-                                 HasSubstr("x third: the absolute error of 20 m is above 10 %")));
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("0.00500 *"), HasSubstr("0.10000  "), HasSubstr("19.99999 x"),
+                    HasSubstr("x third: the absolute error of 20 m is above 10 %")));
   EXPECT_LT(outcome.out.find("peer"), outcome.out.find("ours"));
 }
 
@@ -182,7 +183,7 @@ TEST_F(TrajloEvaluateTest, TheOutputHoldsEveryNumber) {
                             HasSubstr("\n1.000000000,")));
   EXPECT_THAT(ReadFile(temp_ / "out/evaluation.csv"), HasSubstr("ate_translation_rmse_m"));
   EXPECT_THAT(ReadFile(temp_ / "out/evaluation.tex"),
-              AllOf(HasSubstr("good & 0.005"), HasSubstr("lost & $\\times$")));
+              AllOf(HasSubstr("good & 0.00500 "), HasSubstr("lost & $\\times$")));
 }
 
 TEST_F(TrajloEvaluateTest, NothingIsOverwrittenUnasked) {

@@ -24,8 +24,8 @@ constexpr int kDampedFrom = 8;
 /// that is held weakly.
 constexpr double kSpacing_m = 0.4;
 /// A start faster than this is not expected; it only holds directions that nobody measures.
-constexpr double kPriorSigmaM = 10.0;
-constexpr double kPriorSigmaRad = 2.0;
+constexpr double kPriorSigma_m = 10.0;
+constexpr double kPriorSigma_rad = 2.0;
 /// A motion is believed if it brings this many times as many points onto planes as standing still
 /// does ...
 constexpr double kMinGain = 1.15;
@@ -97,8 +97,8 @@ class FirstInterval {
       // 4, 4, 2, 2, 1, 1, ... times the map's voxels and the kernel.
       const double coarse = std::max(1.0, 4.0 / (1 << (round / 2)));
       const RegistrationNormalEquations equations = Linearize(tau, coarse);
-      Vector6d prior = Vector6d::Constant(1.0 / (kPriorSigmaM * kPriorSigmaM));
-      prior.tail<3>().setConstant(1.0 / (kPriorSigmaRad * kPriorSigmaRad));
+      Vector6d prior = Vector6d::Constant(1.0 / (kPriorSigma_m * kPriorSigma_m));
+      prior.tail<3>().setConstant(1.0 / (kPriorSigma_rad * kPriorSigma_rad));
       Matrix6d H = equations.H.bottomRightCorner<6, 6>();
       H.diagonal() += prior;
       const Vector6d g = equations.g.tail<6>() + prior.cwiseProduct(tau);
