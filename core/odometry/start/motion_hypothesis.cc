@@ -18,10 +18,13 @@ namespace {
 constexpr double kAgreement_m = 0.05;
 /// Planes whose normals have at least this cosine with a direction face it.
 constexpr double kFacing = 0.5;
-/// So many moments has the interval.
-constexpr double kMoments = 100.0;
+/// So many moments has the interval; half of them are in the second half, if its points are not all
+/// of one time.
+constexpr int kMoments = 100;
 /// So many points of a moment, or of a place, count.
 constexpr int kMostVotes = 8;
+
+int MomentOf(const RegistrationPoint& point) { return static_cast<int>(point.alpha * kMoments); }
 
 bool IsFacing(const RegistrationPoint& point, const Eigen::Vector3d& direction) {
   return std::abs(point.normal_world.dot(direction)) >= kFacing;
@@ -79,12 +82,16 @@ int MotionHypothesis::FacingAlong(const Eigen::Vector3d& direction) const {
 
 int MotionHypothesis::VotesAlong(const Eigen::Vector3d& direction, double place_m) const {
   std::map<int, int> of_moment;
+  for (const RegistrationPoint& point : points_) of_moment[MomentOf(point)] = 0;
+  const int moments = std::max(1, static_cast<int>(of_moment.size()));
+  // A motion-corrected scan has one moment only.
+  const int most_of_moment = std::max(kMostVotes, kMostVotes * kMoments / 2 / moments);
   std::map<std::array<int, 3>, int> of_place;
   int votes = 0;
   ForEachAgreeing([&](const RegistrationPoint& point) {
     if (!IsFacing(point, direction)) return;
-    int& moment = of_moment[static_cast<int>(point.alpha * kMoments)];
-    if (moment == kMostVotes) return;
+    int& moment = of_moment[MomentOf(point)];
+    if (moment == most_of_moment) return;
     ++moment;
     const VoxelKey at = VoxelAt(point.p_body_m, 1.0 / place_m);
     int& place = of_place[{at.x(), at.y(), at.z()}];

@@ -72,7 +72,11 @@ TEST(MotionHypothesis, AMomentHasFewVotes) {
   boards.Add(12.0F, 2.0F, 0.6F, 0.0F);
   boards.Add(22.0F, 2.0F, 0.6F, 0.0F);
   EXPECT_EQ(boards.Moving(0.0).AgreeingAlong(kForward), 50);
-  EXPECT_EQ(boards.Moving(0.0).VotesAlong(kForward, 5.0), 8);
+  // All points are of one time, as those of a motion-corrected scan: there are no moments.
+  EXPECT_EQ(boards.Moving(0.0).VotesAlong(kForward, 5.0), 16);
+  // A third one is seen at 25 other times: the first two share the few votes of theirs.
+  boards.Add(32.0F, 2.0F, 0.7F, 0.01F);
+  EXPECT_LT(boards.Moving(0.0).VotesAlong(kForward, 5.0), 24);
 }
 
 TEST(MotionHypothesis, APlaceHasFewVotes) {
