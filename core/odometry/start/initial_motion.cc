@@ -55,7 +55,7 @@ constexpr int kSearchFirstRound = 2;
 constexpr int kSearchLastRound = 11;
 /// The size of a place, in median ranges.
 constexpr double kPlaceInMedians = 0.5;
-/// Of a number of points that agree by chance.
+/// Of a number of votes that chance brings about.
 constexpr double kClearDeviations = 5.0;
 
 /// The first interval, and ways to look at it.

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "core/odometry/window/association.h"
 #include "factors/plane_distances.h"
@@ -18,8 +17,7 @@ namespace {
 constexpr double kAgreement_m = 0.05;
 /// Planes whose normals have at least this cosine with a direction face it.
 constexpr double kFacing = 0.5;
-/// So many moments has the interval; half of them are in the second half, if its points are not all
-/// of one time.
+/// So many moments has the interval, and half as many its second half.
 constexpr int kMoments = 100;
 /// So many points of a moment, or of a place, count.
 constexpr int kMostVotes = 8;
@@ -84,7 +82,7 @@ int MotionHypothesis::VotesAlong(const Eigen::Vector3d& direction, double place_
   std::map<int, int> of_moment;
   for (const RegistrationPoint& point : points_) of_moment[MomentOf(point)] = 0;
   const int moments = std::max(1, static_cast<int>(of_moment.size()));
-  // A motion-corrected scan has one moment only.
+  // The points of a motion-corrected scan are all of one moment, which has the votes of all then.
   const int most_of_moment = std::max(kMostVotes, kMostVotes * kMoments / 2 / moments);
   std::map<std::array<int, 3>, int> of_place;
   int votes = 0;

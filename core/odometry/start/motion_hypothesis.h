@@ -31,10 +31,10 @@ class MotionHypothesis {
   int AgreeingAlong(const Eigen::Vector3d& direction) const;
   int FacingAlong(const Eigen::Vector3d& direction) const;
 
-  /// How many of AgreeingAlong() speak for themselves. No moment and no place counts for more than
-  /// a few of them, since they share an error, or are one thing. Where a scanner bounces, the rings
-  /// of two sweeps stand above each other behind it, and seem to be walls that are at rest beside
-  /// it; so is a car that goes along. A place is a cube of `place_m`.
+  /// How many of AgreeingAlong() count by themselves. No moment and no place (a cube of `place_m`)
+  /// has more than a few: its points share an error, or are one thing. Where a scanner bounces, the
+  /// rings of two sweeps stand above each other behind it, and seem to be a wall that goes along. A
+  /// car may go along, too.
   int VotesAlong(const Eigen::Vector3d& direction, double place_m) const;
 
  private:
