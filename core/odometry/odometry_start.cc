@@ -27,11 +27,12 @@ void Odometry::Begin(Beginning beginning) {
   if (beginning_->IsWhole(options_.initialization)) Start();
 }
 
-/// One more segment of the first interval. A gap ends it.
+/// One more segment of the first interval. What a gap cuts short tells little: a sweep that was
+/// seen once says nothing of the motion, and is no place that could be found again. The first
+/// interval begins behind the gap.
 void Odometry::TakeFirst(SegmentCloud cloud) {
   if (cloud.is_gap) {
-    Start();
-    Take(std::move(cloud));
+    beginning_->segments.clear();
     return;
   }
   beginning_->segments.push_back(std::move(cloud));

@@ -48,15 +48,17 @@ constexpr double kSteady = 0.7;
 constexpr double kSayingSo = 0.5;
 /// A direction with less than this share of the information is held weakly.
 constexpr double kWeakShare = 0.02;
-/// The search along a weak direction has so many starts, so far apart: 50 m/s over 0.3 s.
+/// The search along a weak direction has so many starts, between so much forward and backward.
+/// Nothing faster is believed.
 constexpr std::size_t kSearchStarts = 16;
-constexpr double kSearchStep_m = 2.0;
+constexpr double kFastest_m_s = 50.0;
 constexpr int kSearchFirstRound = 2;
-constexpr int kSearchLastRound = 11;
+constexpr int kSearchLastRound = 8;
 /// The size of a place, in median ranges.
 constexpr double kPlaceInMedians = 0.5;
-/// Of a number of votes that chance brings about.
-constexpr double kClearDeviations = 5.0;
+/// Of the votes elsewhere. Of 119 simulated starts on motorways and along facades, all 97 with more
+/// were right, and the wrong ones had at most 1.9.
+constexpr double kClearDeviations = 2.0;
 
 /// The first interval, and ways to look at it.
 class FirstInterval {
@@ -65,20 +67,21 @@ class FirstInterval {
                 const RegistrationOptions& registration, ThreadPool* threads)
       : cloud_(cloud), map_options_(map_options), registration_(registration), threads_(threads) {
     map_options_.finest.kind = MapKind::kVoxelHash;
-    std::vector<SegmentPoint> all;
+    std::vector<SegmentPoint> second_half;
     for (const SegmentPoint& point : cloud.map_points) {
-      if (point.alpha >= 0.5F) all.push_back(point);
+      (point.alpha < 0.5F ? first_half_ : second_half).push_back(point);
     }
-    VoxelFilter(kSpacing_m).Filter(all, &second_half_);
+    VoxelFilter(kSpacing_m).Filter(second_half, &second_half_);
     std::vector<float> ranges_m;
     for (const SegmentPoint& point : second_half_) ranges_m.push_back(point.p_body_m.norm());
     place_m_ = kPlaceInMedians * UpperMedian(std::move(ranges_m));
   }
 
   bool is_empty() const { return second_half_.empty(); }
+  double Duration_s() const { return cloud_.Duration_s(); }
 
   MotionHypothesis At(const Vector6d& tau) const {
-    return MotionHypothesis(cloud_, second_half_, tau, map_options_, threads_);
+    return {first_half_, second_half_, cloud_.lidar_origins_body_m, tau, map_options_, threads_};
   }
 
   int VotesAlong(const Eigen::Vector3d& direction, const Vector6d& tau) const {
@@ -89,6 +92,18 @@ class FirstInterval {
   bool IsShownAlong(const Eigen::Vector3d& direction, const Vector6d& tau) const {
     const MotionHypothesis hypothesis = At(tau);
     return hypothesis.AgreeingAlong(direction) > kSayingSo * hypothesis.FacingAlong(direction);
+  }
+
+  /// To look for the way along a direction: the interval without most of what says nothing about
+  /// it, judged by the surfaces that it shows under `tau`.
+  FirstInterval Along(const Eigen::Vector3d& direction, const Vector6d& tau) const {
+    FirstInterval along = *this;
+    along.direction_ = direction;
+    // The surfaces are those of the whole interval: it sees each of them better than a half does.
+    const MotionHypothesis whole(cloud_.map_points, second_half_, cloud_.lidar_origins_body_m, tau,
+                                 map_options_, threads_);
+    along.second_half_ = whole.TellingAlong(direction, second_half_);
+    return along;
   }
 
   /// The motion near `tau` by rounds of registration; the first ones see coarsely.
@@ -125,38 +140,51 @@ class FirstInterval {
     map.finest.voxel_size_m *= coarse;
     RegistrationOptions registration = registration_;
     registration.kernel_m *= coarse;
-    return MotionHypothesis(cloud_, second_half_, tau, map, threads_)
-        .Linearize(MakeRegistrationNoise(registration));
+    const RegistrationNoise noise = MakeRegistrationNoise(registration);
+    const MotionHypothesis hypothesis(first_half_, second_half_, cloud_.lidar_origins_body_m, tau,
+                                      map, threads_);
+    return direction_ ? hypothesis.LinearizeAlong(*direction_, noise) : hypothesis.Linearize(noise);
   }
 
   const SegmentCloud& cloud_;
   MapPyramidOptions map_options_;
   const RegistrationOptions& registration_;
   ThreadPool* threads_;
+  std::vector<SegmentPoint> first_half_;
   std::vector<SegmentPoint> second_half_;
-  double place_m_ = 0.0;  ///< See MotionHypothesis.
+  double place_m_ = 0.0;                      ///< See MotionHypothesis.
+  std::optional<Eigen::Vector3d> direction_;  ///< Of the way that is looked for, if of one.
 };
 
 /// Where the points hold one direction weakly (along a road), a search ends near where it starts.
-/// So it is started again at steps along that direction, and judged by the planes that face it: for
-/// one of them, many more must vote than chance brings about at the others.
+/// So it is started again at steps along that direction. What does not face it has no say in the
+/// way along it, and what does is the judge: one of the ends must have many more votes than any
+/// other way has.
 Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& interval,
                      const Vector6d& found, ThreadPool* threads) {
+  const FirstInterval along = interval.Along(direction, found);
   const double found_m = found.head<3>().dot(direction);
-  std::vector<Vector6d> taus(kSearchStarts, found);
-  std::vector<int> votes(kSearchStarts);
-  threads->ParallelFor(kSearchStarts, [&](std::size_t i) {
-    const double start_m = kSearchStep_m * (static_cast<double>(i) - 0.5 * (kSearchStarts - 1));
-    taus[i].head<3>() += (start_m - found_m) * direction;
-    taus[i] = interval.Refine(taus[i], kSearchFirstRound, kSearchLastRound);
+  const double step_m = 2.0 * kFastest_m_s * interval.Duration_s() / (kSearchStarts - 1);
+  std::vector<Vector6d> taus(kSearchStarts + 1, found);
+  std::vector<int> votes(kSearchStarts + 1);
+  threads->ParallelFor(taus.size(), [&](std::size_t i) {
+    if (i < kSearchStarts) {  // What was found is the last one.
+      const double start_m = step_m * (static_cast<double>(i) - 0.5 * (kSearchStarts - 1));
+      taus[i].head<3>() += (start_m - found_m) * direction;
+      taus[i] = along.Refine(taus[i], kSearchFirstRound, kSearchLastRound);
+    }
     votes[i] = interval.VotesAlong(direction, taus[i]);
   });
   const auto most = std::max_element(votes.begin(), votes.end());
-  if (*most <= interval.VotesAlong(direction, found)) return found;
-  const double by_chance = UpperMedian(votes);
-  if (*most < by_chance + kClearDeviations * std::sqrt(std::max(by_chance, 1.0))) return found;
-  const Vector6d& best = taus[static_cast<std::size_t>(most - votes.begin())];
-  return interval.Refine(best, kSearchFirstRound, kRounds);
+  const Vector6d best = along.Refine(taus[static_cast<std::size_t>(most - votes.begin())],
+                                     kSearchFirstRound, kRounds);
+  double elsewhere = 1.0;
+  for (std::size_t i = 0; i < taus.size(); ++i) {
+    const double apart_m = std::abs((taus[i] - best).head<3>().dot(direction));
+    if (apart_m > 0.5 * step_m) elsewhere = std::max(elsewhere, static_cast<double>(votes[i]));
+  }
+  const double clearly = elsewhere + kClearDeviations * std::sqrt(elsewhere);
+  return interval.VotesAlong(direction, best) < clearly ? found : best;
 }
 
 }  // namespace
@@ -191,8 +219,9 @@ FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const Initializatio
   const bool hardly_moves = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
   const bool is_steady = hardly_moves || motion.agreeing > kSteady * motion.with_plane;
   const double gain = way_m > kClearMotion_m ? 1.0 : kMinGain;
-  const bool is_believed = motion.agreeing > gain * motion.agreeing_at_rest ||
-                           motion.votes > gain * motion.votes_at_rest;
+  const bool is_believed =
+      way_m < kFastest_m_s * duration_s && (motion.agreeing > gain * motion.agreeing_at_rest ||
+                                            motion.votes > gain * motion.votes_at_rest);
   if (!is_believed) return {Vector6d::Zero(), is_steady};
   return {motion.tau / duration_s, is_steady};
 }

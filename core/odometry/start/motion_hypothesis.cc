@@ -17,6 +17,9 @@ namespace {
 constexpr double kAgreement_m = 0.05;
 /// Planes whose normals have at least this cosine with a direction face it.
 constexpr double kFacing = 0.5;
+/// Of the points of planes that do not face a direction, so many (up to twice as many) hold all but
+/// the way along it.
+constexpr std::size_t kHolding = 2000;
 /// So many moments has the interval, and half as many its second half.
 constexpr int kMoments = 100;
 /// So many points of a moment, or of a place, count.
@@ -30,25 +33,43 @@ bool IsFacing(const RegistrationPoint& point, const Eigen::Vector3d& direction) 
 
 }  // namespace
 
-MotionHypothesis::MotionHypothesis(const SegmentCloud& interval,
+MotionHypothesis::MotionHypothesis(const std::vector<SegmentPoint>& map_points,
                                    const std::vector<SegmentPoint>& second_half,
+                                   const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
                                    const Vector6d& tau, const MapPyramidOptions& map_options,
                                    ThreadPool* threads)
     : T_end_(se3::Exp(tau)) {
   const SegmentMotion motion(SE3(), T_end_);
-  std::vector<Eigen::Vector3d> first_half;
-  for (const SegmentPoint& point : interval.map_points) {
-    if (point.alpha >= 0.5F) continue;
-    first_half.push_back(motion.ToWorld(point.alpha, point.p_body_m.cast<double>()));
+  std::vector<Eigen::Vector3d> places;
+  places.reserve(map_points.size());
+  for (const SegmentPoint& point : map_points) {
+    places.push_back(motion.ToWorld(point.alpha, point.p_body_m.cast<double>()));
   }
   MapPyramid map(map_options);
-  map.Insert(first_half);
-  SegmentAssociation().Associate(second_half, interval.lidar_origins_body_m, SE3(), T_end_, map,
-                                 threads, &points_);
+  map.Insert(places);
+  SegmentAssociation().Associate(second_half, lidar_origins_body_m, SE3(), T_end_, map, threads,
+                                 &points_);
 }
 
 RegistrationNormalEquations MotionHypothesis::Linearize(const RegistrationNoise& noise) const {
   return LinearizeSegment(points_, SE3(), T_end_, noise);
+}
+
+RegistrationNormalEquations MotionHypothesis::LinearizeAlong(const Eigen::Vector3d& direction,
+                                                             const RegistrationNoise& noise) const {
+  std::vector<RegistrationPoint> facing, others;
+  for (const RegistrationPoint& point : points_) {
+    (IsFacing(point, direction) ? facing : others).push_back(point);
+  }
+  RegistrationNormalEquations sum = LinearizeSegment(facing, SE3(), T_end_, noise);
+  const RegistrationNormalEquations held = LinearizeSegment(others, SE3(), T_end_, noise);
+  const Eigen::Vector3d d = T_end_.q.conjugate() * direction;
+  Matrix12d across = Matrix12d::Identity();
+  across.block<3, 3>(6, 6) -= d * d.transpose();
+  sum.H += across * held.H * across;
+  sum.g += across * held.g;
+  sum.cost += held.cost;
+  return sum;
 }
 
 template <typename Function>
@@ -76,6 +97,22 @@ int MotionHypothesis::FacingAlong(const Eigen::Vector3d& direction) const {
   return static_cast<int>(
       std::count_if(points_.begin(), points_.end(),
                     [&](const RegistrationPoint& point) { return IsFacing(point, direction); }));
+}
+
+std::vector<SegmentPoint> MotionHypothesis::TellingAlong(
+    const Eigen::Vector3d& direction, const std::vector<SegmentPoint>& second_half) const {
+  std::vector<SegmentPoint> telling, others;
+  auto with_plane = points_.begin();
+  for (const SegmentPoint& point : second_half) {
+    // Those that have a plane are in the same order.
+    const bool has_plane = with_plane != points_.end() && with_plane->alpha == point.alpha &&
+                           with_plane->p_body_m == point.p_body_m.cast<double>();
+    (has_plane && !IsFacing(*with_plane, direction) ? others : telling).push_back(point);
+    if (has_plane) ++with_plane;
+  }
+  const std::size_t stride = std::max<std::size_t>(1, others.size() / kHolding);
+  for (std::size_t i = 0; i < others.size(); i += stride) telling.push_back(others[i]);
+  return telling;
 }
 
 int MotionHypothesis::VotesAlong(const Eigen::Vector3d& direction, double place_m) const {
