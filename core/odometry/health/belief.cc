@@ -49,6 +49,7 @@ bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double dura
 
 void Revert(const std::vector<SE3>& poses, Window* window) {
   window->SetPoses(poses);
+  window->is_believed = false;
   for (Segment& segment : window->segments) segment.registration = {};
 }
 

@@ -17,8 +17,8 @@ bool HasJumped(const WindowStatistics& statistics, const Window& window);
 /// Whether that speed and turn rate get a body from one pose to another in `duration_s`.
 bool IsWithinReach(const SE3& T_world_begin, const SE3& T_world_end, double duration_s);
 
-/// Puts the poses back to `poses`. The planes belong to poses that are not believed: the
-/// registration is forgotten.
+/// Puts the poses back to `poses`, which are predictions. The planes belong to poses that are not
+/// believed: the registration is forgotten.
 void Revert(const std::vector<SE3>& poses, Window* window);
 
 /// Sets the flags of a window from how its solve went and from how its points hold it. Of its

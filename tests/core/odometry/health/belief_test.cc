@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace trajlo {
 namespace {
@@ -25,6 +26,17 @@ TEST(Belief, APoseJumpsIfItMovesFartherThanTenGAndThanAPointMayBeOffItsPlane) {
   // 10 g move a body by 1 m in 0.1 s.
   EXPECT_FALSE(Jumps(0.9, 0.1));
   EXPECT_TRUE(Jumps(1.1, 0.1));
+}
+
+TEST(Belief, WhatIsPutBackIsNotBelieved) {
+  Window window;
+  window.segments.resize(1);
+  window.segments[0].registration.H.setIdentity();
+  const std::vector<SE3> predicted = {SE3(), se3::Exp(Vector6d::Constant(0.1))};
+  Revert(predicted, &window);
+  EXPECT_FALSE(window.is_believed);
+  EXPECT_EQ(window.Pose(1).t, predicted[1].t);
+  EXPECT_TRUE(window.segments[0].registration.H.isZero());
 }
 
 }  // namespace

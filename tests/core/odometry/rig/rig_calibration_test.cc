@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/odometry/health/belief.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo {
@@ -164,6 +165,20 @@ TEST(RigCalibration, LearnsNothingFromOneLidarAlone) {
     calibration.Learn(window);
   }
   ExpectNear(calibration.Correction(1), {}, 0.002, 0.001, 0.001);
+}
+
+/// A window that was put back has no registration any more; its points still have planes.
+TEST(RigCalibration, LearnsNothingFromAWindowThatWasPutBack) {
+  Rig rig({LidarCorrection(), LidarCorrection()});
+  RigCalibration calibration(true);
+  LearnFrom(&rig, 200, 0.01, &calibration);
+  const LidarCorrection before = calibration.Correction(1);
+  SegmentCloud cloud = rig.See(200, Step(), calibration.Clocks_s());
+  calibration.Apply(&cloud);
+  Window window = rig.Register(std::move(cloud), se3::Exp(Vector6d::Constant(0.1)), 0.01);
+  Revert({window.T_world_begin, window.T_world_begin}, &window);
+  calibration.Learn(window);
+  ExpectNear(calibration.Correction(1), before, 1e-12, 1e-12, 1e-12);
 }
 
 TEST(RigCalibration, MovesPointsAndOriginsByTheCorrection) {
