@@ -7,6 +7,7 @@
 
 #include "core/evaluation/absolute_error.h"
 #include "core/evaluation/completeness.h"
+#include "core/evaluation/error_causes.h"
 #include "core/evaluation/evaluation_error.h"
 #include "core/evaluation/rotation_doubt.h"
 #include "core/evaluation/stamp_search.h"
@@ -14,6 +15,11 @@
 
 namespace trajlo {
 namespace {
+
+/// Of an error: what comes from elsewhere is said if it is more.
+constexpr double kWorthSaying = 0.5;
+/// Clocks that are nearer to each other are not told apart by errors of an estimate.
+constexpr double kClockDifference_s = 0.002;
 
 PoseErrorStatistics Statistics(const PoseErrors& errors) {
   return {ComputeStatistics(errors.translation_m), ComputeStatistics(errors.rotation_deg),
@@ -75,6 +81,30 @@ double FindTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
   return found.offset_s;
 }
 
+/// Says where an error is mostly none of the estimate's.
+void WarnOfOtherCauses(const TimedPoses& estimate, const TimedPoses& truth, std::int64_t offset_ns,
+                       const PoseAssociationOptions& options, Evaluation* evaluation) {
+  const double rmse_m = evaluation->absolute.translation_m.rmse;
+  if (options.rule == AssociationRule::kInterpolate) {
+    const double max_gap_s = options.max_gap_s > 0.0 ? options.max_gap_s : MaxGap(truth.t_ns);
+    const double line_m = StraightLineError_m(estimate, truth, offset_ns, max_gap_s);
+    if (line_m > kWorthSaying * rmse_m) {
+      evaluation->warnings.push_back(FormatText(
+          "the truth is sparse: between its poses the body leaves the straight line by %.2g m "
+          "(RMS, by the estimate), and the ATE is %.2g m; --association=interpolate_estimate "
+          "compares at the truth's own times",
+          line_m, rmse_m));
+    }
+  }
+  const ClockDifference clocks = ExplainByClocks(evaluation->pairs);
+  if (clocks.share > kWorthSaying && std::abs(clocks.offset_s) > kClockDifference_s) {
+    evaluation->warnings.push_back(
+        FormatText("the error goes along with the velocity, as if the clocks differed by %.3f s; "
+                   "--estimate_time_offset finds out",
+                   clocks.offset_s));
+  }
+}
+
 /// The share of the poses that occur in a pair.
 double PairedShare(const std::vector<PosePair>& pairs, const TimedPoses& counted) {
   std::set<std::size_t> indices;
@@ -126,6 +156,7 @@ Evaluation Evaluate(const TimedPoses& estimate, const TimedPoses& truth,
   for (PosePair& pair : evaluation.pairs) pair.estimate = evaluation.alignment * pair.estimate;
   evaluation.errors = AbsoluteErrors(evaluation.pairs, evaluation.has_orientation);
   evaluation.absolute = Statistics(evaluation.errors);
+  if (timed) WarnOfOtherCauses(estimate, truth, offset_ns, options.association, &evaluation);
   if (evaluation.has_orientation) {
     const RotationDoubt doubt = JudgeRotations(evaluation.pairs, evaluation.alignment);
     evaluation.rotation_determined = doubt.determined;
