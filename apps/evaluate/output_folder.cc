@@ -47,10 +47,10 @@ void CheckEvaluationFolder(const fs::path& folder, bool overwrite) {
 void WriteEvaluation(const EvaluateRequest& request, const EvaluationReport& report) {
   const fs::path& folder = request.output;
   const IfExists if_exists = request.overwrite ? IfExists::kReplace : IfExists::kFail;
-  std::vector<fs::path> earlier = EarlierErrors(folder);
-  const std::vector<fs::path> files = FilesOf(folder);
-  earlier.insert(earlier.end(), files.begin(), files.end());
-  PrepareResultFolder(folder, earlier);
+  std::vector<fs::path> files = FilesOf(folder);
+  const std::vector<fs::path> errors = EarlierErrors(folder);
+  files.insert(files.end(), errors.begin(), errors.end());
+  PrepareResultFolder(folder, files);
   for (const EstimateReport& estimate : report.estimates) {
     if (!estimate.evaluation) continue;
     WriteTextFile(folder / estimate.errors_csv,

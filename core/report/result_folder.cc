@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/result_folder.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 
 #include "core/io/errors.h"
@@ -31,25 +33,35 @@ void CheckResultFolder(const fs::path& folder, const std::vector<fs::path>& file
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw OutputError(folder, "exists already and is not a folder; choose another --output");
   }
-  if (overwrite) return;
-  for (const fs::path& file : files) {
-    if (fs::exists(fs::symlink_status(file, error))) {
-      const char* what =
-          IsUnfinished(file) ? "holds a result that did not finish (" : "holds an earlier result (";
-      throw OutputError(folder, what + file.filename().string() +
-                                    "); choose another --output, or add --overwrite to replace it");
-    }
+  const auto status_of = [&](const fs::path& file) { return fs::symlink_status(file, error); };
+  const auto exists = [&](const fs::path& file) { return fs::exists(status_of(file)); };
+  const auto is_file = [&](const fs::path& file) { return fs::is_regular_file(status_of(file)); };
+  const auto found = std::find_if(files.begin(), files.end(), exists);
+  if (found == files.end()) return;
+  // Of a recording, or of somebody's own: it is not ours to replace.
+  const auto other = std::find_if(files.begin(), files.end(), is_file);
+  if (other != files.end() && !exists(files.front())) {
+    throw OutputError(folder, "holds " + other->filename().string() + ", but no " +
+                                  files.front().filename().string() +
+                                  ", so it is no earlier result; choose another --output, or "
+                                  "remove the file if nobody needs it");
   }
+  if (overwrite) return;
+  const char* what =
+      IsUnfinished(*found) ? "holds a result that did not finish (" : "holds an earlier result (";
+  throw OutputError(folder, what + found->filename().string() +
+                                "); choose another --output, or add --overwrite to replace it");
 }
 
 void PrepareResultFolder(const fs::path& folder, const std::vector<fs::path>& files) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw OutputError(folder, "the folder cannot be created: " + error.message());
-  for (const fs::path& file : files) {
-    if (!fs::is_regular_file(fs::symlink_status(file, error))) continue;
-    fs::remove(file, error);
-    if (error) throw OutputError(file, "the earlier result cannot be removed: " + error.message());
+  // The summary last: while a file is left, it says what the folder is.
+  for (auto file = files.rbegin(); file != files.rend(); ++file) {
+    if (!fs::is_regular_file(fs::symlink_status(*file, error))) continue;
+    fs::remove(*file, error);
+    if (error) throw OutputError(*file, "the earlier result cannot be removed: " + error.message());
   }
 }
 

@@ -7,13 +7,14 @@
 
 namespace trajlo {
 
-/// Throws OutputError if `folder` is none, or if it holds one of `files`, an earlier result, and
-/// `overwrite` is false. Creates and changes nothing.
+/// Throws OutputError if `folder` is none, or if it holds one of `files`: an earlier result if the
+/// first of them, its summary, is there, and then only if `overwrite` is false. Creates and changes
+/// nothing.
 void CheckResultFolder(const std::filesystem::path& folder,
                        const std::vector<std::filesystem::path>& files, bool overwrite);
-/// Creates the folder and removes `files`, so that no part of an earlier result survives beside
-/// the new one. Links are left alone: somebody wants the file elsewhere, and writing follows them.
-/// Throws OutputError.
+/// Creates the folder and removes `files`, the first one last, so that no part of an earlier result
+/// survives beside the new one. Links are left alone: somebody wants the file elsewhere, and
+/// writing follows them. Throws OutputError.
 void PrepareResultFolder(const std::filesystem::path& folder,
                          const std::vector<std::filesystem::path>& files);
 

@@ -9,7 +9,9 @@
 namespace trajlo {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using trajlo::testing::TempFolder;
 using trajlo::testing::WriteFile;
 
@@ -35,9 +37,22 @@ TEST(ResultFolder, AnyFileOfAnEarlierResultNeedsOverwrite) {
   for (const char* name :
        {"run.json", "trajectory.tum", "map.ply", "view.ply", "windows.csv", "config.yaml"}) {
     const TempFolder temp;
+    WriteFile(temp / "run.json", "{}");
     WriteFile(temp / name, "old");
     EXPECT_THAT(CheckError(ResultFolder(temp.path())), HasSubstr("--overwrite")) << name;
     EXPECT_EQ(CheckError(ResultFolder(temp.path()), true), "");
+  }
+}
+
+/// A simulated recording has a rig.yaml: the truth, which is not to be replaced.
+TEST(ResultFolder, FilesOfOthersAreNeverReplaced) {
+  for (const char* name : {"rig.yaml", "config.yaml", "map.ply"}) {
+    const TempFolder temp;
+    WriteFile(temp / name, "mine");
+    for (const bool overwrite : {false, true}) {
+      EXPECT_THAT(CheckError(ResultFolder(temp.path()), overwrite),
+                  AllOf(HasSubstr(name), HasSubstr("no run.json"), Not(HasSubstr("--overwrite"))));
+    }
   }
 }
 
