@@ -79,6 +79,13 @@ void Run::Estimate(const std::atomic<bool>& stop) {
   Timed([&] { odometry_.Finish(); });
 }
 
+/// Of the poses that were written.
+PoseFlags Run::Flags() const {
+  PoseFlags flags(odometry_.trajectory().poses(), odometry_.lost_at_ns());
+  flags.CountPosesAt(written_ns_);
+  return flags;
+}
+
 void Run::Write() {
   sampler_.Finish(odometry_.trajectory(), [this](std::int64_t t_ns, const SE3& T) {
     Append(t_ns, T);

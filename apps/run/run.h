@@ -46,7 +46,7 @@ class Run {
   void Append(std::int64_t t_ns, const SE3& T_world_body);
   void WriteRig() const;
   std::vector<LidarPlace> Rig() const;
-  PoseFlags Flags() const { return {odometry_.trajectory().poses(), odometry_.lost_at_ns()}; }
+  PoseFlags Flags() const;
 
   const RunRequest& request_;
   const ResultFolder& folder_;

@@ -35,9 +35,10 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
   };
 
   const FlaggedPoses gap = total("gap");
-  if (gap.poses > 0) {
+  if (gap.control_poses > 0) {
     warnings.push_back("nothing was measured for " + SecondsText(gap.seconds, all_s) + " in " +
-                       std::to_string(gap.poses) + (gap.poses == 1 ? " stretch" : " stretches") +
+                       std::to_string(gap.control_poses) +
+                       (gap.control_poses == 1 ? " stretch" : " stretches") +
                        "; the motion in between is unknown (flag gap in flags.csv)");
   }
   warn_of_share("no_points",

@@ -20,11 +20,24 @@ PoseFlags::PoseFlags(const std::vector<ControlPose>& poses,
     seconds_ += duration_s;
     const auto count = [&](FlaggedPoses* total) {
       ++total->poses;
+      ++total->control_poses;
       total->seconds += duration_s;
     };
     if (flags != 0) count(&any_);
     for (const unsigned flag : kAllFlags) {
       if ((flags & flag) != 0) count(&totals_[FlagNames(flag)]);
+    }
+  }
+}
+
+void PoseFlags::CountPosesAt(const std::vector<std::int64_t>& times_ns) {
+  any_.poses = 0;
+  for (auto& [name, total] : totals_) total.poses = 0;
+  for (const std::int64_t t_ns : times_ns) {
+    const unsigned flags = At(t_ns);
+    any_.poses += flags != 0 ? 1 : 0;
+    for (const unsigned flag : kAllFlags) {
+      totals_[FlagNames(flag)].poses += (flags & flag) != 0 ? 1 : 0;
     }
   }
 }

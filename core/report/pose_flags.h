@@ -11,10 +11,11 @@
 
 namespace trajlo {
 
-/// How many control poses have a flag, and how much time they stand for: that from the pose before
-/// to the flagged one.
+/// How many poses have a flag, and how much time the control poses with it stand for: that from the
+/// pose before to the flagged one.
 struct FlaggedPoses {
   std::size_t poses = 0;
+  std::size_t control_poses = 0;
   double seconds = 0.0;
 };
 
@@ -24,6 +25,9 @@ class PoseFlags {
  public:
   PoseFlags() : PoseFlags({}, std::nullopt) {}
   PoseFlags(const std::vector<ControlPose>& poses, std::optional<std::int64_t> lost_at_ns);
+
+  /// Counts the poses at these times, those of a trajectory file, in place of the control poses.
+  void CountPosesAt(const std::vector<std::int64_t>& times_ns);
 
   /// WindowFlag bits at a time within the trajectory; those of the last pose after it.
   unsigned At(std::int64_t t_ns) const;

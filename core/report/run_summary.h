@@ -39,7 +39,7 @@ struct RunSummary {
   // What came out.
   WindowTotals windows;
   std::size_t poses_written = 0;
-  PoseFlags flags;  ///< Of the control poses.
+  PoseFlags flags;
   std::size_t map_points = 0;
   std::vector<LidarPlace> rig;  ///< As found.
   std::optional<std::int64_t> begin_ns, end_ns, lost_at_ns;

@@ -27,7 +27,7 @@ std::string Dropped(const RunSummary& s) {
   return text.empty() ? "nothing" : text + " of " + std::to_string(s.points.received) + " points";
 }
 
-/// "gap 1 (2.0 s), ...": control poses, and the time that they stand for.
+/// "gap 1 (2.0 s), ...": poses, and the time that they stand for.
 std::string Flagged(const PoseFlags& flags) {
   std::string text;
   for (const auto& [name, total] : flags.totals()) {

@@ -49,6 +49,18 @@ TEST(PoseFlags, AreATableBesideTheTrajectory) {
             "t_s,flags,flag_names\n1.000000000,0,\n2.000000000,2,gap\n");
 }
 
+TEST(PoseFlags, PosesAreThoseThatWereWritten) {
+  PoseFlags flags(Poses(), std::nullopt);
+  flags.CountPosesAt({kSecond, kSecond + 1, 2 * kSecond, 4 * kSecond});
+  EXPECT_EQ(flags.any().poses, 2u);
+  EXPECT_EQ(flags.totals().at("gap").poses, 2u);
+  EXPECT_EQ(flags.totals().at("gap").control_poses, 1u);
+  EXPECT_EQ(flags.totals().at("gap").seconds,
+            PoseFlags(Poses(), std::nullopt).totals().at("gap").seconds);
+  flags.CountPosesAt({});
+  EXPECT_EQ(flags.any().poses, 0u);
+}
+
 TEST(FlagWarnings, SayForHowLongAndInWhichDirection) {
   RunSummary summary;
   EXPECT_TRUE(FlagWarnings(summary).empty());
