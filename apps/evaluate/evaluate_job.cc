@@ -8,6 +8,7 @@
 #include "apps/evaluate/output_folder.h"
 #include "apps/print_warnings.h"
 #include "core/evaluation/evaluation_error.h"
+#include "core/export/run_result.h"
 #include "core/io/errors.h"
 #include "core/io/scan_stamps.h"
 #include "core/report/draw_script.h"
@@ -48,6 +49,18 @@ NamedPoses Read(const std::filesystem::path& path, TrajectoryFormat format,
   return read;
 }
 
+/// What the run that made an estimate says against it.
+void WarnOfRun(const std::filesystem::path& estimate, std::vector<std::string>* warnings) {
+  std::error_code error;
+  const bool is_folder = std::filesystem::is_directory(estimate, error);
+  const std::filesystem::path folder = is_folder ? estimate : estimate.parent_path();
+  if (!is_folder && estimate.filename() != "trajectory.tum") return;
+  const std::string shortcoming = IsRunResult(folder) ? RunShortcoming(folder) : "";
+  if (!shortcoming.empty()) {
+    warnings->push_back(estimate.string() + ": of trajlo_run, which said: " + shortcoming);
+  }
+}
+
 EstimateReport EvaluateOne(std::size_t index, const EvaluateRequest& request,
                            const TimedPoses& truth, std::vector<std::string>* warnings) {
   EstimateReport report;
@@ -57,6 +70,7 @@ EstimateReport EvaluateOne(std::size_t index, const EvaluateRequest& request,
   try {
     const NamedPoses estimate = Read(path, request.estimate_format, request, warnings);
     report.trajectory = estimate.summary;
+    WarnOfRun(path, warnings);
     report.evaluation = Evaluate(estimate.poses, truth, request.options);
     for (const std::string& warning : report.evaluation->warnings) {
       warnings->push_back(path.string() + ": " + warning);

@@ -108,6 +108,17 @@ bool IsRunResult(const fs::path& folder) {
          fs::is_regular_file(files.summary(), error);
 }
 
+std::string RunShortcoming(const fs::path& folder) {
+  std::ifstream stream(ResultFolder(folder).summary());
+  const Json json = Json::parse(stream, nullptr, false);
+  if (!json.is_object() || !json.contains("exit") || !json["exit"].is_object()) return "";
+  const Json& exit = json["exit"];
+  const std::string reason = exit.value("reason", ""), message = exit.value("message", "");
+  if (reason.empty() || reason == "ok") return "";
+  if (reason == "running") return "the run was killed, or still goes on";
+  return message.empty() ? "the run ended early (" + reason + ")" : message;
+}
+
 RunResult ReadRunResult(const fs::path& folder, const ResultOptions& options) {
   const ResultFolder files(folder);
   RunResult result;

@@ -43,6 +43,10 @@ struct RunResult {
 /// True for a folder with a trajectory.tum and a run.json.
 bool IsRunResult(const std::filesystem::path& folder);
 
+/// What run.json of a result says against its poses: the run was lost, cut short or killed, or read
+/// only a part of its input. Empty after a run that ended well.
+std::string RunShortcoming(const std::filesystem::path& folder);
+
 /// Throws InputError where a file is missing or no pose counts, and ConfigError for config.yaml.
 RunResult ReadRunResult(const std::filesystem::path& folder, const ResultOptions& options = {});
 

@@ -114,6 +114,19 @@ TEST_F(TrajloEvaluateTest, AFolderOfAResultStandsForItsTrajectory) {
   EXPECT_EQ(Json()["estimates"][0]["name"], "result");
 }
 
+TEST_F(TrajloEvaluateTest, WhatItsRunSaysAgainstAnEstimateIsSaidAgain) {
+  std::filesystem::create_directory(temp_ / "result");
+  WritePoses("result/trajectory.tum", Disturbed(0.01));
+  WriteFile(temp_ / "result/run.json",
+            R"({"exit": {"code": 4, "reason": "lost", "message": "lost at 3 s"}})");
+  for (const char* name : {"result", "result/trajectory.tum"}) {
+    const Outcome outcome = Call({name, "truth.tum"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(name), HasSubstr("lost at 3 s")));
+  }
+  EXPECT_THAT(Call({"good.tum", "truth.tum"}).err, Not(HasSubstr("lost")));
+}
+
 TEST_F(TrajloEvaluateTest, AShortRunIsIncompleteAndNotDiverged) {
   WritePoses("short.tum", SmoothPoses(1.0, 0.1, 80));
   const Outcome outcome = Call({"short.tum", "truth.tum", Output(), "--report=false"});

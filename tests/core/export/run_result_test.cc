@@ -53,6 +53,18 @@ TEST_F(Result, IsReadWithTimesToTheNanosecondAndFlags) {
   EXPECT_TRUE(result.covariances.empty());
 }
 
+TEST_F(Result, SaysWhatItsRunSaysAgainstIt) {
+  EXPECT_EQ(RunShortcoming(folder_.path()), "");
+  const auto ended = [&](const std::string& exit) {
+    WriteFile(folder_ / "run.json", R"({"exit": )" + exit + "}");
+    return RunShortcoming(folder_.path());
+  };
+  EXPECT_EQ(ended(R"({"code": 0, "reason": "ok", "message": ""})"), "");
+  EXPECT_EQ(ended(R"({"code": 4, "reason": "lost", "message": "lost at 3 s"})"), "lost at 3 s");
+  EXPECT_THAT(ended(R"({"code": null, "reason": "running", "message": ""})"), HasSubstr("killed"));
+  EXPECT_EQ(ended("7"), "");
+}
+
 TEST_F(Result, ExtrinsicsThatWereFoundReplaceThoseThatWereGiven) {
   WriteFile(folder_ / "config.yaml", RigYaml("given", {SE3(), SE3()}));
   EXPECT_EQ(ReadRunResult(folder_.path()).config.odometry.segmenter.T_body_lidar[1].t.x(), 0.0);
