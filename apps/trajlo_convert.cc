@@ -18,6 +18,8 @@
 #include "core/config/edit_distance.h"
 #include "core/export/run_result.h"
 #include "core/io/conversion/scan_bag_writer.h"
+#include "core/io/errors.h"
+#include "core/io/recording/open_recording.h"
 
 DEFINE_string(input, "", "the recording; in place of the first argument");
 DEFINE_string(output, "", "the bag, folder or file to write; in place of the last argument");
@@ -214,6 +216,16 @@ void CheckResultOutput(const trajlo::ConvertRequest& request) {
   CheckEnding(request.output, {"mcap", "db3", "bag", "ply", "pcd", "txt", "tum"});
 }
 
+/// So that a path that is wrong is no question of what may become of it.
+void CheckInput(const std::string& input) {
+  std::error_code error;
+  if (std::filesystem::exists(input, error)) return;
+  for (const std::string& path : trajlo::InputPaths(input)) {
+    if (std::filesystem::exists(path, error)) continue;
+    throw trajlo::InputError(path, "there is no such file or folder", "Check the path.");
+  }
+}
+
 /// Arguments and flags may be mixed: trajlo_convert in.bag -o out.bag.
 trajlo::ConvertRequest RequestFromFlags(std::vector<std::string> arguments) {
   if (!FLAGS_input.empty()) arguments.insert(arguments.begin(), FLAGS_input);
@@ -236,6 +248,7 @@ trajlo::ConvertRequest RequestFromFlags(std::vector<std::string> arguments) {
     }
   }
   request.exports = ExportsFromFlags();
+  CheckInput(request.input);
   CheckOutput(request);
   if (trajlo::IsRunResult(request.input)) {
     CheckResultOutput(request);

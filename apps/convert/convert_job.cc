@@ -141,7 +141,11 @@ ExitCode Convert(const ConvertRequest& request, const std::atomic<bool>& stop) {
 
 ExitCode ConvertJob(const ConvertRequest& request, const std::atomic<bool>& stop) {
   const ExitCode code = Convert(request, stop);
-  return stop ? ExitCode::kInterrupted : code;
+  if (!stop) return code;
+  std::fprintf(stderr,
+               "trajlo_convert: a signal ended it early; %s holds what was read until then\n",
+               request.output.c_str());
+  return ExitCode::kInterrupted;
 }
 
 }  // namespace trajlo

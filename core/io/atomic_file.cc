@@ -23,7 +23,8 @@ AtomicFile::AtomicFile(const fs::path& path, IfExists if_exists)
     : path_(path), part_path_(PartPath(path)), if_exists_(if_exists) {
   std::error_code error;
   if (if_exists_ == IfExists::kFail && part_path_ != path_ && fs::exists(path_, error)) {
-    throw OutputError(path_, "exists already and is not replaced without being told so");
+    throw OutputError(path_,
+                      "exists already; choose another name, or add --overwrite to replace it");
   }
   // A left-over of an interrupted run may be replaced.
   file_ = std::make_unique<OutputFile>(part_path_, IfExists::kReplace);

@@ -30,7 +30,8 @@ OutputFile::OutputFile(const std::filesystem::path& path, IfExists if_exists) : 
   if (if_exists == IfExists::kFail && !IsDevice(path)) flags |= O_EXCL;
   fd_ = ::open(path.c_str(), flags, 0666);
   if (fd_ < 0 && errno == EEXIST) {
-    throw OutputError(path_, "exists already and is not replaced without being told so");
+    throw OutputError(path_,
+                      "exists already; choose another name, or add --overwrite to replace it");
   }
   if (fd_ < 0 && errno == ENXIO) throw OutputError(path_, "is a pipe that nobody reads");
   if (fd_ < 0) Fail("creating");

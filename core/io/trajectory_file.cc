@@ -51,7 +51,7 @@ void CheckStampUnit(const std::filesystem::path& path, std::string_view text) {
   std::string_view line;
   if (!lines.Next(&line)) return;
   const std::string_view stamp = TakeWord(&line);
-  if (!AllDigits(stamp) || ParseDecimalNs(stamp, kSecondNs)) return;
+  if (!AllDigits(stamp.substr(0, stamp.find('.'))) || ParseDecimalNs(stamp, kSecondNs)) return;
   throw InputError(path,
                    "the stamp " + std::string(stamp) + " of line " +
                        std::to_string(lines.number()) + " would be in the far future",

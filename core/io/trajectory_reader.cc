@@ -84,7 +84,7 @@ std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string
       positions.push_back(pose);
       position_lines.push_back(lines.number());
     } else if (kind == LineKind::kUnusable) {
-      warn(lines.number(), "is skipped: a number is not finite");
+      warn(lines.number(), "is skipped: a number is not finite, or the stamp is in the far future");
     } else if (may_be_cut) {
       warn(lines.number(), "is skipped: it is incomplete, as after an interrupted recording");
     } else {

@@ -47,6 +47,12 @@ TEST_F(TrajloConvert, HelpTeachesByExample) {
                               Not(HasSubstr("minloglevel"))));
 }
 
+TEST_F(TrajloConvert, APathThatIsWrongIsSaidFirst) {
+  const Outcome outcome = Convert({Path("nothere"), Path("map.ply")});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("nothere"), HasSubstr("no such file")));
+}
+
 TEST_F(TrajloConvert, ATrajectoryBecomesOneOfAnotherFormat) {
   WriteFile(Path("truth.csv"), "#t,x,y,z,qw,qx,qy,qz\n5000000000,1,2,3,1,0,0,0\n");
   ASSERT_EQ(Convert({Path("truth.csv"), Path("truth.tum")}).exit_code, 0);

@@ -161,7 +161,7 @@ TEST_F(InterruptedRunTest, AKilledRunLeavesAReadablePrefixThatSaysSo) {
   EXPECT_EQ(text.back(), '\n');
   EXPECT_EQ(RunJson()["exit"]["reason"], "running");
   EXPECT_TRUE(RunJson()["exit"]["code"].is_null());
-  EXPECT_EQ(Run().exit_code, 5);  // Nor is it replaced without being told so.
+  EXPECT_EQ(Run().exit_code, 5);  // Nor is it replaced without --overwrite.
 }
 
 }  // namespace

@@ -86,6 +86,11 @@ TEST_F(TrajectoryFileTest, NumbersWhoseLengthIsInfiniteAreNoPose) {
   EXPECT_THAT(ErrorOf("1e200 1e200 0 0 -1e200 1e200 0 0 0 0 1 0\n"), HasSubstr("not finite"));
 }
 
+TEST_F(TrajectoryFileTest, StampsInMillisecondsAreRefused) {
+  EXPECT_THAT(ErrorOf("1700000000000 0 0 0 0 0 0 1\n"), HasSubstr("ns, us or ms"));
+  EXPECT_THAT(ErrorOf("1700000000000.250 0 0 0 0 0 0 1\n"), HasSubstr("ns, us or ms"));
+}
+
 TEST_F(TrajectoryFileTest, ALastLineThatIsCutIsLeftOut) {
   const std::string whole = "1 0 0 0 0 0 0.6 0.8\n2 0 0 0 0 0 0.6 0.8\n";
   for (const char* cut :
