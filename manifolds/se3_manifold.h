@@ -47,7 +47,8 @@ class SE3Manifold final : public ceres::Manifold {
   int TangentSize() const override { return 6; }
 
   bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
-    Store(trajlo::Plus(SE3::FromData(x), Eigen::Map<const Vector6d>(delta)), x_plus_delta);
+    const SE3 T = trajlo::Plus(SE3::FromData(x), Eigen::Map<const Vector6d>(delta));
+    Eigen::Map<Eigen::Matrix<double, 7, 1>>(x_plus_delta) << T.q.coeffs(), T.t;
     return true;
   }
 
@@ -71,14 +72,6 @@ class SE3Manifold final : public ceres::Manifold {
     Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> J(jacobian);
     J = Se3MinusJacobian(SE3::FromData(x));
     return true;
-  }
-
- private:
-  static void Store(const SE3& T, double* x) {
-    Eigen::Map<Eigen::Vector4d> q(x);
-    Eigen::Map<Eigen::Vector3d> t(x + 4);
-    q = T.q.coeffs();
-    t = T.t;
   }
 };
 

@@ -91,8 +91,12 @@ void Odometry::Step(SegmentCloud cloud) {
   SideTask learning(&threads_);
   if (window_.is_believed) {
     NoteSupport();
-    NoteScatter();
-    learning.Start([&] { Learn(predicted.back()); });
+    // How noisy the points are, they show at solved poses: a bad prediction is no noise.
+    map_.SetScatter(std::min(PointScatter(window_), options_.registration.kernel_m));
+    learning.Start([&] {
+      motion_prior_.Learn(MeasureInnovation(window_, predicted.back()),
+                          window_.segments.back().Duration_s());
+    });
   } else {
     Revert(predicted, &window_);
   }
@@ -124,11 +128,6 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
   }
 }
 
-/// How noisy the points are, they show at solved poses: a bad prediction is no noise.
-void Odometry::NoteScatter() {
-  map_.SetScatter(std::min(PointScatter(window_), options_.registration.kernel_m));
-}
-
 /// Judges the window by those before it as well.
 void Odometry::Watch(WindowStatistics* statistics) {
   if (inlier_watch_.HasFew(*statistics)) statistics->flags |= kFlagFewInliers;
@@ -140,12 +139,6 @@ void Odometry::Watch(WindowStatistics* statistics) {
   doubt_.Update(window_, *statistics, motion_prior_.density());
   statistics->flags |= doubt_.flags();
   window_.segments.back().flags = statistics->flags;
-}
-
-/// The weights follow what this window showed.
-void Odometry::Learn(const SE3& T_world_predicted) {
-  motion_prior_.Learn(MeasureInnovation(window_, T_world_predicted),
-                      window_.segments.back().Duration_s());
 }
 
 /// What no plane agrees with may be a hand before the LiDAR.

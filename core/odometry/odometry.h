@@ -94,9 +94,7 @@ class Odometry {
   void NoteSupport();
   void AssociateAndSolve(WindowStatistics* statistics);
   void LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics);
-  void NoteScatter();
   void Watch(WindowStatistics* statistics);
-  void Learn(const SE3& T_world_predicted);
   bool MayEnterMap(const Segment& segment) const;
   int SegmentsToKeep() const;
   void Leave(WindowStatistics* statistics);

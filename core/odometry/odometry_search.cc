@@ -27,7 +27,7 @@ double NewestAgreement(const Window& window) {
 /// look again while its attitude may be anything near. If they agree better then, the prior
 /// follows.
 void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics) {
-  const Window first = window_;
+  Window first = window_;
   window_.SetPoses(predicted);
   Segment& newest = window_.segments.back();
   newest.registration = {};
@@ -46,7 +46,7 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
     motion_prior_.Apply(&window_);
     *statistics = again;
   } else {
-    window_ = first;
+    window_ = std::move(first);
     statistics->milliseconds_associate = again.milliseconds_associate;
     statistics->milliseconds_solve = again.milliseconds_solve;
   }
@@ -81,10 +81,8 @@ void Odometry::NoteSupport() {
 
 /// From the end of the window on, nobody knows where the body is.
 void Odometry::BeginSearch() {
-  const int size = window_.size();
-  const Vector6d velocity = size > 0 ? window_.Velocity(size - 1) : window_.begin_velocity;
-  search_.emplace(LastSeen{support_.supported_until_ns(), window_.EndNs(), window_.Pose(size),
-                           velocity, motion_prior_.density()},
+  search_.emplace(LastSeen{support_.supported_until_ns(), window_.EndNs(), window_.EndPose(),
+                           window_.EndVelocity(), motion_prior_.density()},
                   attitude_, options_);
 }
 

@@ -18,7 +18,7 @@ struct RigidInformation {
   double points = 0.0;
 
   explicit RigidInformation(const Window& window) {
-    const SE3& newest = window.Pose(window.size());
+    const SE3& newest = window.EndPose();
     for (int k = 0; k < window.size(); ++k) {
       const Segment& segment = window.At(k);
       // A rigid motion xi of the newest frame moves T_j by Adj(T_j⁻¹ T_newest) xi.
@@ -49,7 +49,7 @@ double LargestSpurious(const SpuriousInformation& spurious, double points_per_er
 double SpreadOverPlaces(const Window& window, const Vector6d& u) {
   constexpr int kGroups = SpuriousInformation::kGroups;
   Eigen::Array<double, kGroups, 1> sums = Eigen::Array<double, kGroups, 1>::Zero();
-  const SE3& newest = window.Pose(window.size());
+  const SE3& newest = window.EndPose();
   for (int k = 0; k < window.size(); ++k) {
     const SpuriousInformation& spurious = window.At(k).spurious;
     const Vector6d u_begin = se3::Adjoint(window.Pose(k).Inverse() * newest) * u;

@@ -10,7 +10,8 @@
 namespace trajlo {
 
 /// Notices when the estimator stops following the scene. A trajectory that is wrong looks smooth
-/// and has many inliers; what gives it away is that its windows do not settle.
+/// and has many inliers; what gives it away is that its windows do not settle, or that few
+/// points agree for a second.
 class LossWatch {
  public:
   /// Takes the next window; the time at which the loss began, if this window is lost.

@@ -14,7 +14,8 @@ enum WindowFlag : unsigned {
   kFlagNoPoints = 1u << 0,  ///< The newest segment has no points, or hardly any is on a plane of
                             ///< the map: the motion prior carries it.
   kFlagGap = 1u << 1,       ///< Before this pose is a stretch of which nothing was measured.
-  kFlagReverted = 1u << 2,  ///< A solve was not finite or jumped: the prediction stands.
+  kFlagReverted = 1u << 2,  ///< A solve was not finite, or went where no body gets: the
+                            ///< prediction stands.
   kFlagNotConverged = 1u << 3,  ///< The rounds ran out before the steps became small.
   kFlagDegenerate = 1u << 4,    ///< A direction is held by the motion prior alone.
   kFlagLost = 1u << 5,          ///< The scene is no longer followed: see LossWatch.

@@ -9,7 +9,6 @@ SegmentCloud JoinSegments(const std::vector<SegmentCloud>& segments) {
   joined.begin_ns = segments.front().begin_ns;
   joined.end_ns = segments.back().end_ns;
   joined.lidar_origins_body_m = segments.back().lidar_origins_body_m;
-  joined.corrections = segments.back().corrections;
   const double duration_s = joined.Duration_s();
   for (const SegmentCloud& segment : segments) {
     const double first = Seconds(segment.begin_ns - joined.begin_ns) / duration_s;

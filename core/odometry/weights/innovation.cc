@@ -12,7 +12,7 @@ Innovation MeasureInnovation(const Window& window, const SE3& T_world_predicted)
   equations.H.bottomRightCorner<12, 12>() -= window.segments.back().registration.H;
   const Vector6d predicted = PoseCovariance(equations, window.size()).diagonal();
   Innovation innovation;
-  innovation.correction = Minus(window.Pose(window.size()), T_world_predicted);
+  innovation.correction = Minus(window.EndPose(), T_world_predicted);
   innovation.expected_variance = (predicted - with_points).cwiseMax(0.0);
   innovation.gain = innovation.expected_variance.cwiseQuotient(predicted);
   return innovation;

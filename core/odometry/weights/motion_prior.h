@@ -57,8 +57,8 @@ struct MotionPriorOptions {
 /// for rotation, where it brought nothing, and made runs at 35 rad/s too uncertain.)
 ///   At rest, z is the noise of planes that hardly changes the estimate: u < 1, and q falls to its
 /// floor. In constant acceleration z keeps its sign, s adds up, and q rises until the lag is within
-/// what q itself predicts. A jerk makes one z large: q rises by up to 8 Δt / T_l in a window, and
-/// the poses of the window, which are still free, follow.
+/// what q itself predicts. A jerk makes one z large: log q rises by up to 8 Δt / T_l in a window,
+/// and the poses of the window, which are still free, follow.
 ///   It cannot confirm itself: a stiff prior makes the expected variance small in the same measure,
 /// so the lag that it causes counts more. And nothing is learnt where the points tell nothing:
 /// there w is near 0.

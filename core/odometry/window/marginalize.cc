@@ -26,13 +26,9 @@ void Untie(const Vector6d& velocity_before, Segment* segment) {
   }
 }
 
-}  // namespace
-
-MarginalizationPrior AnchorOf(const SE3& T_world_first) {
-  constexpr double kSigma_m = 1e-3, kSigma_rad = 1e-3;
-  return MakeAnchor(T_world_first, kSigma_m, kSigma_rad);
-}
-
+/// The prior of the window without its first control pose: that pose is eliminated from all terms
+/// that touch it, at the state in which the window is left, so that the linear term needs no
+/// correction.
 MarginalizationPrior PriorWithoutFirstPose(const Window& window,
                                            const MarginalizationOptions& options) {
   const std::vector<SE3> poses = window.Poses();
@@ -56,6 +52,13 @@ MarginalizationPrior PriorWithoutFirstPose(const Window& window,
       MarginalizeSchur(terms.H, terms.g, {poses.begin() + 1, poses.begin() + touched});
   prior.first_estimate_jacobians = options.first_estimate_jacobians;
   return prior;
+}
+
+}  // namespace
+
+MarginalizationPrior AnchorOf(const SE3& T_world_first) {
+  constexpr double kSigma_m = 1e-3, kSigma_rad = 1e-3;
+  return MakeAnchor(T_world_first, kSigma_m, kSigma_rad);
 }
 
 Segment Marginalize(const MarginalizationOptions& options, Window* window) {

@@ -23,12 +23,6 @@ struct MarginalizationOptions {
 /// Holds the first control pose of a recording.
 MarginalizationPrior AnchorOf(const SE3& T_world_first);
 
-/// The prior of the window without its first control pose: that pose is eliminated from all terms
-/// that touch it, at the state in which the window is left, so that the linear term needs no
-/// correction.
-MarginalizationPrior PriorWithoutFirstPose(const Window& window,
-                                           const MarginalizationOptions& options);
-
 /// Removes the oldest segment and returns it; its first pose lives on in the prior. The poses of a
 /// window that is not believed are no minimum: what is left of their gradient would pull at the
 /// windows that follow, and is dropped.

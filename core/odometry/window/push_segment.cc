@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/odometry/window/marginalize.h"
+
 namespace trajlo {
 namespace {
 
@@ -30,12 +32,11 @@ Window MakeWindow(std::int64_t begin_ns, const SE3& T_world_begin) {
 }
 
 void PushSegment(SegmentCloud cloud, Deskewing deskewing, Window* window) {
-  const Vector6d velocity =
-      window->size() > 0 ? window->Velocity(window->size() - 1) : window->begin_velocity;
+  const Vector6d velocity = window->EndVelocity();
   Segment segment;
   segment.cloud = std::move(cloud);
   const double duration_s = segment.Duration_s();
-  segment.T_world_end = Plus(window->Pose(window->size()), velocity * duration_s);
+  segment.T_world_end = Plus(window->EndPose(), velocity * duration_s);
   if (window->size() == 0) segment.motion = BeginVelocity(velocity, duration_s);
   if (deskewing == Deskewing::kPredicted) DeskewToEnd(velocity * duration_s, &segment.cloud);
   window->segments.push_back(std::move(segment));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/odometry/window/deskew.h"
-#include "core/odometry/window/marginalize.h"
 #include "core/odometry/window/window.h"
 
 namespace trajlo {

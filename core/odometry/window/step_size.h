@@ -33,7 +33,7 @@ inline StepSize MeasureStep(const std::vector<SE3>& start, const std::vector<SE3
   return largest;
 }
 
-/// The way of a segment from one pair of control poses to another.
+/// Whether both control poses of a segment are within `tolerance` of others.
 inline bool AreNear(const SE3& begin, const SE3& end, const SE3& other_begin, const SE3& other_end,
                     const StepSize& tolerance) {
   return MeasureStep(begin, other_begin).IsWithin(tolerance) &&

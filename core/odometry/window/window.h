@@ -65,6 +65,7 @@ struct Window {
   Segment& At(int k) { return segments[static_cast<std::size_t>(k)]; }
   /// The K+1 control poses, oldest first.
   const SE3& Pose(int k) const { return k == 0 ? T_world_begin : At(k - 1).T_world_end; }
+  const SE3& EndPose() const { return Pose(size()); }
   std::vector<SE3> Poses() const {
     std::vector<SE3> poses = {T_world_begin};
     for (const Segment& segment : segments) poses.push_back(segment.T_world_end);
@@ -77,6 +78,7 @@ struct Window {
   }
   /// The mean twist over segment k, [rho; theta] per second, in the body frame at its begin.
   Vector6d Velocity(int k) const { return Minus(Pose(k + 1), Pose(k)) / At(k).Duration_s(); }
+  Vector6d EndVelocity() const { return segments.empty() ? begin_velocity : Velocity(size() - 1); }
 };
 
 }  // namespace trajlo
