@@ -174,6 +174,32 @@ class SuiteTableTest(unittest.TestCase):
         rows[0]["result"] = "not finished"
         self.assertEqual(tables.suite_table(suite, rows).lines[0].cells[0].text, "x (1 of 3)")
 
+    def seeded(self, **counts):
+        return [dict(row("ours", group, 0.1, sequence=f"{group}-seed{seed}"), seed=seed)
+                for group, count in counts.items() for seed in range(1, count + 1)]
+
+    def test_the_footnote_counts_the_seeds_of_a_cell_and_not_those_of_the_suite(self):
+        table = tables.suite_table(make_suite(groups=("a", "b")), self.seeded(a=2, b=2))
+        self.assertIn("Each value is the median of 2 seeds; (1 x) says that one of them failed, "
+                      "(1 of 2) that only one has ended.", table.notes)
+        rows = self.seeded(a=2, b=2)
+        rows[2]["seed"], rows[3]["seed"] = 3, 4
+        self.assertIn("median of 2 seeds;", tables.suite_table(
+            make_suite(groups=("a", "b")), rows).notes[0])
+        one = tables.suite_table(make_suite(groups=("a", "b")), self.seeded(a=1, b=1))
+        self.assertEqual(one.notes, [])
+
+    def test_a_cell_of_fewer_seeds_than_others_says_so(self):
+        rows = self.seeded(a=3, b=1, c=2)
+        rows[-1]["result"] = "x"
+        rows.append(dict(row("ours", "real", 0.1), seed=None))
+        table = tables.suite_table(make_suite(groups=("a", "b", "c", "real")), rows)
+        self.assertEqual([cell.text for cell in table.lines[0].cells],
+                         ["0.1000", "0.1000 (1 seed)", "0.1000 (1 x) (2 seeds)", "0.1000"])
+        note, = table.notes
+        self.assertIn("median over the seeds of its sequence: 1 to 3, and a cell of fewer than 3 "
+                      "says of how many; real recordings have no seeds; (1 x)", note)
+
     def test_an_unfinished_run_is_no_failure(self):
         table = tables.suite_table(make_suite(), [row("ours", "eee_01", None, "not finished")])
         self.assertEqual(table.lines[0].cells[0].text, "…")
