@@ -6,14 +6,15 @@
                                       SVG, PDF and PNG
 DIR is the output folder of trajlo_compare_solvers. Needs Debian's python3-numpy,
 python3-matplotlib and python3-jinja2.
+
+Exit codes: 0 done, 1 wrong usage, 2 input unreadable, 5 output not writable.
 """
-import argparse
 import pathlib
 import sys
 
 from trajlo_report import comparison_words as words
 from trajlo_report import figures_comparison as figures
-from trajlo_report import files, page, theme
+from trajlo_report import command_line, files, page, theme
 
 
 def with_notes(caption, left_out):
@@ -51,22 +52,21 @@ def draw_all(folder, lockstep, free, width_in):
     return drawn
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+def make_parser():
+    parser = command_line.Parser(description=__doc__)
     parser.add_argument("comparison", type=pathlib.Path,
                         help="output folder of trajlo_compare_solvers")
     parser.add_argument("--title", default="Comparison of solvers")
-    arguments = parser.parse_args()
+    return parser
+
+
+def draw(arguments):
     folder = arguments.comparison
-    try:
-        document = files.read_json(folder / "comparison.json")
-    except files.ReportError as error:
-        sys.exit(f"draw_comparison.py: {error}")
+    document = files.read_json(folder / "comparison.json")
     theme.apply()
     lockstep = [item for item in document["variants"] if "lockstep" in item]
     free = [item for item in document["variants"] if "free" in item]
-    (folder / "figures").mkdir(exist_ok=True)
+    files.make_folder(folder / "figures")
     drawn = []
     for name, figure, caption in draw_all(folder, lockstep, free, theme.COLUMN_IN):
         width = int(140 * figure.get_size_inches()[0])
@@ -80,7 +80,8 @@ def main():
         leaves_s={item["name"]: words.since_begin(folder, item) for item in free},
         length=words.small_length, config=(folder / "config.yaml").read_text()))
     print(f"{report}: {len(document['variants'])} variants, {len(drawn)} figures")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(command_line.guarded(make_parser(), draw))

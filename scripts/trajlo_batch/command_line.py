@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """What the command lines of batches and experiments share."""
-import argparse
 import os
 import pathlib
 import re
@@ -9,24 +8,7 @@ import sys
 
 from trajlo_batch.places import BUILD, ROOT, WORK, Places
 from trajlo_batch.yaml_lines import SuiteError
-
-
-class Parser(argparse.ArgumentParser):
-    """Wrong usage ends with 1, as it does with the other programs."""
-
-    def __init__(self, **keywords):
-        super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, **keywords)
-
-    def error(self, message):
-        self.print_usage(sys.stderr)
-        self.exit(1, f"{self.prog}: {message}\n")
-
-
-def positive(text):
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError("must be at least 1")
-    return number
+from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401  all of them for the scripts
 
 
 def add_work_arguments(parser, run_name):
@@ -108,7 +90,7 @@ def guarded(parser, work, how_to_go_on="the same command goes on where this one 
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 1
     except OSError as error:
-        print(f"{parser.prog}: {error}", file=sys.stderr)
+        print(f"{parser.prog}: {sentence(error, 'be read or written')}", file=sys.stderr)
         return 5
     except KeyboardInterrupt:
         print(f"interrupted; {how_to_go_on}", file=sys.stderr)
