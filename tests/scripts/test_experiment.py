@@ -92,6 +92,31 @@ class PointsTest(PretendedTest):
         self.assertEqual([(point.marks, point.options) for point in points if not point.in_design],
                          [(("defaults",), {})])
 
+    def test_a_mark_that_sets_nothing_but_defaults_is_the_point_of_the_grid_that_does(self):
+        points = self.points(SMALL.replace("[3, 5]", "[3, 4]").replace(
+            "expert.registration.kernel: [none, huber]", "rules: {settings: {ours: {}, other: {a.b: 1}}}"
+        ).replace("window.segments: 5, expert.registration.kernel: none", "window.segments: 4.0"))
+        self.assertEqual(len(points), 4)
+        self.assertEqual([(point.levels, point.marks) for point in points if point.marks],
+                         [({"window.segments": 4, "rules": "ours"}, ("defaults", "chosen"))])
+
+    def test_a_mark_is_no_point_of_the_grid_if_the_program_has_other_options_for_it(self):
+        self.executable("build/apps/trajlo_run", "#!/bin/sh\necho 'window: {segments: 4}'\n"
+                        "case \"$*\" in *segments=4*) echo 'tuned: false' ;; esac\n")
+        points = self.points(SMALL.replace("[3, 5]", "[3, 4]").replace("none, huber", "none"))
+        self.assertIn(((), {"window.segments": "4", "expert.registration.kernel": "none"}),
+                      [(point.marks, point.options) for point in points])
+        self.assertIn((("defaults",), {}), [(point.marks, point.options) for point in points])
+
+    def test_a_mark_with_the_default_of_a_parameter_is_no_recording_of_its_own(self):
+        self.executable("build/apps/trajlo_simulate",
+                        "#!/bin/sh\necho motion.speed_mps=3\necho lidar0.channels=16\n")
+        text = SMALL.replace("window.segments", "simulate.motion.speed_mps").replace(
+            "expert.registration.kernel: [none, huber]", "a.b: {settings: {ours: {}}}").replace(
+            "expert.registration.kernel: none", "a.b: ours")
+        points = self.points(text)
+        self.assertEqual([point.marks for point in points], [("defaults",), ("chosen",)])
+
     def test_one_at_a_time_takes_what_the_program_shows_as_the_centre(self):
         points = self.points(ONE_AT_A_TIME)
         self.assertEqual([(point.levels, point.marks) for point in points], [
