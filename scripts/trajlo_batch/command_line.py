@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: MIT
 """What the command lines of batches and experiments share."""
+import argparse
 import os
 import pathlib
 import re
+import shlex
 import signal
 import sys
 
 from trajlo_batch.places import BUILD, ROOT, WORK, Places
 from trajlo_batch.yaml_lines import SuiteError
-from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401  all of them for the scripts
+from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401
 
 
 def add_work_arguments(parser, run_name):
@@ -39,10 +41,30 @@ def add_build_argument(parser):
                         help="the build to run; default: $TRAJLO_BUILD_DIR, else build/")
 
 
+def default_output(name):
+    return pathlib.Path(os.environ.get("TRAJLO_RUNS", WORK / "runs")) / name
+
+
 def places_of(arguments, name):
-    output = arguments.output or (
-        pathlib.Path(os.environ.get("TRAJLO_RUNS", WORK / "runs")) / name)
+    output = arguments.output or default_output(name)
     return Places(arguments.build.resolve(), arguments.data.resolve(), output.resolve())
+
+
+def call_of(script, kind, file, places):
+    """How this script was called with this file, from the folder where it was, as far as others
+    have to call it so to find the same results."""
+    of_project = file.parent == ROOT / "config" / kind
+    default = default_places(file.stem)
+    more = [f"--{name}={getattr(places, name)}" for name in ("output", "data", "build")
+            if getattr(places, name) != getattr(default, name)]
+    return shlex.join([f"scripts/{script}", file.stem if of_project else str(file), *more])
+
+
+def default_places(name):
+    """The places where nothing is said about them."""
+    parser = argparse.ArgumentParser()
+    add_work_arguments(parser, "run")
+    return places_of(parser.parse_args([]), name)
 
 
 def alike(missing):

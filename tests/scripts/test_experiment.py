@@ -4,6 +4,7 @@ import contextlib
 import csv
 import io
 import json
+import re
 import shutil
 import subprocess
 import unittest
@@ -164,6 +165,26 @@ class TerminalTest(PretendedTest):
         ended, complete = workflow.Watch(batch).look()
         self.assertEqual((len(ended), complete), (10, 10))
         self.assertEqual(ended[said].result, "ok")
+
+    def test_the_page_says_how_to_repeat_a_row_from_where_it_was_called(self):
+        self.pretend_build()
+        self.write("own/e.yaml", SMALL)
+        command = [SCRIPTS / "experiment", "own/e.yaml", "--build", self.places.build,
+                   "--output", self.places.output, "--report"]
+        subprocess.run(command, capture_output=True, check=False, cwd=self.folder)
+        page = (self.places.output / "report.html").read_text()
+        said = re.search("<code>scripts/(experiment .*) --command ROW</code>", page).group(1)
+        self.assertTrue(said.startswith("experiment own/e.yaml "), said)
+        done = subprocess.run([*f"{SCRIPTS}/{said}".split(), "--command", "1"], text=True,
+                              capture_output=True, check=False, cwd=self.folder)
+        self.assertEqual(done.stderr, "experiment: row 1 was not run yet\n")
+
+    def test_an_experiment_of_the_project_is_called_by_its_name(self):
+        file = ROOT / "config" / "experiments" / "weights.yaml"
+        self.assertEqual(
+            command_line.call_of("experiment", "experiments", file,
+                                 command_line.default_places("weights")),
+            "scripts/experiment weights")
 
     def test_a_sweep_of_densities_that_tune_themselves_is_warned_of_before_the_first_run(self):
         self.executable("build/apps/trajlo_run", "#!/bin/sh\n"
