@@ -8,7 +8,9 @@ import shlex
 import signal
 import sys
 
+from trajlo_batch import results
 from trajlo_batch.places import BUILD, ROOT, WORK, Places
+from trajlo_batch.plan import DONE
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401
 
@@ -95,7 +97,10 @@ def say_missing(suite, missing):
 def show_list(plan):
     for number, run in enumerate(plan.runs, 1):
         why = f" ({', '.join(run.changes)} changed)" if run.changes else ""
-        print(f"{number:4} {run.state:8} {plan.suite.described(run)}{why}")
+        ended = results.ended(plan.places.output / run.folder) if run.state == DONE else None
+        failed = ended and ended.result == results.FAILED
+        print(f"{number:4} {results.FAILED if failed else run.state:8} {plan.suite.described(run)}"
+              f"{f' ({ended.reason})' if failed else why}")
 
 
 def interrupt(*_):

@@ -89,9 +89,10 @@ def result_cell(rows, suite, decimals):
 
 
 def average_cell(cells, decimals):
-    """The mean over all sequences; over some of them it says so, and is not compared."""
-    values = [cell.value for cell in cells if cell.text != ABSENT]
-    if not values or any(math.isnan(value) for value in values):
+    """The mean over all sequences; over some of them, such as those without an x, it says so, and
+    is not compared."""
+    values = [cell.value for cell in cells if not math.isnan(cell.value)]
+    if not values:
         return Cell(ABSENT)
     text = f"{statistics.fmean(values):.{decimals}f}"
     if len(values) < len(cells):

@@ -106,13 +106,16 @@ class ComparedTableTest(unittest.TestCase):
         cell = tables.compared_table(suite, rows, published).lines[-1].cells[11]
         self.assertEqual((cell.text, cell.best), ("0.10", True))
 
-    def test_the_average_needs_all_sequences_to_be_numbers(self):
+    def test_the_average_leaves_out_what_has_an_x_and_says_so(self):
         published = read_published(PUBLISHED / "traj_lo_kitti.yaml")
         suite = make_suite(groups=("00", "01"), metric="kitti_translation_percent")
         rows = [row("ours", "00", 0.4), row("ours", "01", 0.6)]
         table = tables.compared_table(suite, rows, published)
         self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "0.50")
         rows[1]["result"] = "x"
+        table = tables.compared_table(suite, rows, published)
+        self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "0.40 (1 of 2)")
+        rows[0]["result"] = "x"
         table = tables.compared_table(suite, rows, published)
         self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "-")
 
@@ -214,6 +217,15 @@ class SuiteTableTest(unittest.TestCase):
         table = tables.speed_table(make_suite(configurations=("ours", "theirs")), rows)
         self.assertEqual([line.cells[0].text for line in table.lines], ["0.12", "2.00"])
         self.assertFalse(any(line.cells[0].best for line in table.lines))
+
+
+    def test_an_average_over_what_did_not_fail_says_so_and_is_not_the_best(self):
+        suite = make_suite(configurations=("ours", "theirs"), groups=("a", "b"), average=True)
+        rows = [row("ours", "a", 0.1), row("ours", "b", None, "x"),
+                row("theirs", "a", 0.2), row("theirs", "b", 0.4)]
+        table = tables.suite_table(suite, rows)
+        self.assertEqual([(line.cells[-1].text, line.cells[-1].best) for line in table.lines],
+                         [("0.1000 (1 of 2)", False), ("0.3000", True)])
 
 
 class FormatsTest(unittest.TestCase):
