@@ -73,6 +73,11 @@ class OnlyTest(PlannedTest):
         self.assertEqual(done.returncode, 3)
         self.assertIn("  x varied/hall_os1_16-seed1: timeout\n", done.stdout)
 
+    def test_the_page_says_the_whole_rule_of_an_x(self):
+        self.batch("--report")
+        self.assertIn("above both 10 % of the path and 0.5 m",
+                      (self.places.output / "report.html").read_text())
+
     def test_the_list_says_which_runs_failed(self):
         self.assertEqual(self.batch("--list").stdout,
                          "   1 done     plain/hall_os1_16-seed1\n"
