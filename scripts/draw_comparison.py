@@ -24,7 +24,7 @@ def with_notes(caption, left_out):
 
 
 def draw_lockstep(folder, lockstep, width_in):
-    """Figures of single windows: (name, figure, caption)."""
+    """Figures of single windows: (name, figure or nothing, caption)."""
     table = files.read_columns(folder / "lockstep.csv")
     iterations = files.read_columns(folder / "iterations.csv")
     first, slow = lockstep[0]["name"], figures.too_slow(lockstep)
@@ -67,8 +67,11 @@ def draw(arguments):
     lockstep = [item for item in document["variants"] if "lockstep" in item]
     free = [item for item in document["variants"] if "free" in item]
     files.make_folder(folder / "figures")
-    drawn = []
+    drawn, undrawn = [], []
     for name, figure, caption in draw_all(folder, lockstep, free, theme.COLUMN_IN):
+        if figure is None:
+            undrawn.append(caption)
+            continue
         width = int(140 * figure.get_size_inches()[0])
         paths = theme.save(figure, folder / "figures" / name)
         drawn.append({"path": paths[0], "caption": caption, "width": width})
@@ -76,7 +79,10 @@ def draw(arguments):
     files.write_atomically(report, page.render(
         "comparison.html", title=arguments.title, document=document, lockstep=lockstep,
         free=free, figures=drawn, versions=page.flatten(document["versions"]),
-        conclusions=words.of_windows(lockstep) + words.of_runs(free),
+        conclusions=[
+            *words.of_windows(lockstep), *words.by_whole_runs_only(document["variants"]),
+            *words.of_runs(free)],
+        undrawn=undrawn, few_poses=words.few_poses,
         leaves_s={item["name"]: words.since_begin(folder, item) for item in free},
         length=words.small_length, config=(folder / "config.yaml").read_text()))
     print(f"{report}: {len(document['variants'])} variants, {len(drawn)} figures")
