@@ -10,7 +10,7 @@ import subprocess
 import unittest
 
 from pretended_experiment import PretendedTest
-from support import ROOT, SCRIPTS
+from support import ROOT, SCRIPTS, not_described
 
 from trajlo_batch import command_line, plan, workflow
 from trajlo_batch.yaml_lines import SuiteError
@@ -216,6 +216,11 @@ class TableTest(PretendedTest):
                           row["share_lost"]), (0.1, 0.5, 0.25, 0.0))
         self.assertEqual(row["cpu_ms_per_data_second"], 500.0)
         self.assertIn("trajlo_run 0.1.0", row["program"])
+
+    def test_every_column_is_described(self):
+        columns = [name for name in self.rows()[0] if "." not in name]  # those with dots are options
+        self.assertEqual(not_described(columns, "config/experiments/README.md",
+                                       "config/suites/README.md"), [])
 
     def test_a_metric_whose_least_value_is_not_the_best_is_refused(self):
         def check(metric):

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import unittest
 
-from support import SCRIPTS, FolderTest
+from support import SCRIPTS, FolderTest, not_described
 
 from trajlo_batch import plan, results
 from trajlo_batch.places import Places
@@ -72,6 +72,13 @@ class OnlyTest(PlannedTest):
         done = self.batch("--only", "varied/*", "--report")
         self.assertEqual(done.returncode, 3)
         self.assertIn("  x varied/hall_os1_16-seed1: timeout\n", done.stdout)
+
+    def test_every_column_of_its_results_is_described(self):
+        self.batch("--report")
+        head, *_ = (self.places.output / "results.csv").read_text().splitlines()
+        self.assertIn("peak_memory_mb", head)
+        self.assertEqual(not_described([*head.split(","), "rpe_1m_rotation_rmse_deg"],
+                                       "config/suites/README.md"), [])
 
     def test_the_page_says_the_whole_rule_of_an_x(self):
         self.batch("--report")
