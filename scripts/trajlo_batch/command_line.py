@@ -13,6 +13,7 @@ from trajlo_batch.places import BUILD, ROOT, WORK, Places
 from trajlo_batch.plan import DONE
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401
+from trajlo_report.files import WriteError
 
 
 def add_work_arguments(parser, run_name):
@@ -117,7 +118,8 @@ def guarded(parser, work, how_to_go_on="the same command goes on where this one 
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 1
     except OSError as error:
-        print(f"{parser.prog}: {sentence(error, 'be read or written')}", file=sys.stderr)
+        cannot = "be written" if isinstance(error, WriteError) else "be read or written"
+        print(f"{parser.prog}: {sentence(error, cannot)}", file=sys.stderr)
         return 5
     except KeyboardInterrupt:
         print(f"interrupted; {how_to_go_on}", file=sys.stderr)

@@ -96,7 +96,6 @@ def write_report(plan):
     if not plan.runs:
         return []
     rows = table.collect(plan)
-    output.mkdir(parents=True, exist_ok=True)
     write_atomically(output / "results.csv", to_csv(rows))
     findings = Findings(study, rows)
     drawn = figures.draw_all(findings, output / "figures") if findings.rows else []

@@ -46,6 +46,20 @@ class FailingFilesTest(FolderTest):
         first = self.inside / "at_rest" / "hall_os1_16-s1"
         self.refuse(5, f"{first} {why}", "covariance_table.py", "--output", self.inside)
 
+    def test_so_do_batches_experiments_and_campaigns(self):
+        build = self.pretend_build()
+        suite = self.write("s.yaml", "sequences:\n  - simulate: hall_os1_16\n"
+                           "configurations:\n  - name: plain\n")
+        experiment = self.write("e.yaml", "design: {kind: grid}\nvary: {window.segments: [3]}\n"
+                                "sequences:\n  - simulate: hall_os1_16\n")
+        for script, *arguments in (("batch", suite), ("batch", suite, "--report"),
+                                   ("experiment", experiment), ("experiment", experiment, "--report"),
+                                   ("fault_campaign", "--runs", "1"), ("soak",)):
+            with self.subTest(script):
+                self.refuse(5, f"{self.inside} cannot be written: not a directory; a part of the "
+                            "path is a file, so name another", script, *arguments, "--build",
+                            build, "--output", self.inside)
+
     def test_a_file_that_cannot_be_read_ends_with_2(self):
         missing = self.folder / "nothere"
         said = f"{missing} cannot be read: no such file or directory; check the path"
