@@ -17,8 +17,9 @@ its mean over time all the more. That mean is the factor by which the covariance
 95 % interval is a bootstrap over the runs, for the times of a run hang together (give ten or more:
 of fewer it is too narrow, and of one run nothing is concluded).
 Needs Debian's python3-numpy and python3-scipy.
+
+Exit codes: 0 done, 1 wrong usage, 2 input unreadable.
 """
-import argparse
 import pathlib
 import sys
 
@@ -26,7 +27,7 @@ import numpy as np
 from scipy import stats
 from scipy.spatial.transform import Rotation, Slerp
 
-from trajlo_report import files
+from trajlo_report import command_line, files
 
 PARTS = {"pose": slice(0, 6), "translation": slice(0, 3), "rotation": slice(3, 6)}
 STEP_S = 0.05
@@ -157,16 +158,18 @@ def print_verdict(ratios):
           f"it is {word}.")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+def make_parser():
+    parser = command_line.Parser(description=__doc__)
     parser.add_argument("runs", nargs="+", metavar="RESULT=TRUTH")
     parser.add_argument("--every", type=float, default=1.0, help="seconds to a line")
     parser.add_argument("--apart", type=float, default=1.0,
                         help="how long before a pose the other one of its pair is (s)")
     parser.add_argument("--begin", type=float, default=0.0,
                         help="leave out what is earlier, such as a start at rest (s)")
-    arguments = parser.parse_args()
+    return parser
+
+
+def check(arguments):
     runs = []
     for run in arguments.runs:
         result, _, truth = run.partition("=")
@@ -182,10 +185,8 @@ def main():
     ratios, errors = nees_ratios(runs, moments)
     print_stretches(arguments.every, moments, ratios, errors)
     print_verdict(ratios)
+    return 0
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except (files.ReportError, OSError) as error:
-        sys.exit(f"check_covariance.py: {error}")
+    sys.exit(command_line.guarded(make_parser(), check))

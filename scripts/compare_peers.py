@@ -31,6 +31,7 @@ from trajlo_batch import command_line
 from trajlo_batch.places import identify, programs_in
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_campaign import point_arrays
+from trajlo_report.files import make_folder
 
 SCENARIOS = ("office_os0_64", "hall_os1_16", "courtyard_os1_16", "corridor_vlp16", "forest_mid360",
              "bursts_xt32", "car_park_os1_128", "manhattan_hdl32", "motorway_start_hdl64")
@@ -127,7 +128,7 @@ def run_one(method, programs, recording, folder, voxel_m):
     kept = folder / "numbers.json"
     if kept.exists():
         return json.loads(kept.read_text())
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     if method == "trajlo":
         command = [programs / "trajlo_run", recording, "-c", recording / "rig.yaml", "-o",
                    folder / "result", "--threads=1", "--noview", "--overwrite"]

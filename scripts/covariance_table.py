@@ -8,8 +8,10 @@ prints a table (Markdown): the mean normalised error squared of the change betwe
 many seconds apart, divided by its expected value. 1 is right, more is optimistic; see
 check_covariance.py for the definition. What is already in the folder is not made again.
 Needs Debian's python3-numpy, python3-scipy and python3-yaml.
+
+Exit codes: 0 done, 1 wrong usage, or a run that ended badly, 2 input unreadable, 5 output not
+writable.
 """
-import argparse
 import pathlib
 import subprocess
 import sys
@@ -17,9 +19,10 @@ import sys
 import numpy as np
 
 import check_covariance
-from trajlo_batch import command_line
+from trajlo_batch.command_line import add_build_argument
 from trajlo_batch.places import programs_in, read_json_if
 from trajlo_batch.results import dig
+from trajlo_report import command_line, files
 
 SCENARIOS = ("hall_os1_16", "courtyard_os1_16", "office_os0_64", "facade_os1_16", "corridor_vlp16",
              "street_hdl64", "forest_mid360", "stairwell_xt32")
@@ -70,30 +73,33 @@ def print_table(rows, aparts):
         print(f"| `{scenario}` | {kind} |{cells}")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    command_line.add_build_argument(parser)
+def make_parser():
+    parser = command_line.Parser(description=__doc__)
+    add_build_argument(parser)
     parser.add_argument("--output", type=pathlib.Path, required=True)
     parser.add_argument("--seeds", type=int, default=2, help="of each scene and kind")
     parser.add_argument("--scenarios", nargs="+", default=SCENARIOS)
     parser.add_argument("--apart", nargs="+", type=float, default=[1.0, 3.0],
                         help="seconds between the poses of a pair")
-    arguments = parser.parse_args()
+    return parser
+
+
+def tabulate(arguments):
     rows = []
     for kind, (_, first_seed, _) in KINDS.items():
         for scenario in arguments.scenarios:
             folders = []
             for seed in range(first_seed, first_seed + arguments.seeds):
                 folder = arguments.output / kind.replace(" ", "_") / f"{scenario}-s{seed}"
-                folder.mkdir(parents=True, exist_ok=True)
+                files.make_folder(folder)
                 make_run(programs_in(arguments.build), folder, scenario, kind, seed)
                 folders.append(folder)
             rows.append((scenario, kind,
                          [np.mean([ratios_of(folder, apart) for folder in folders], axis=0)
                           for apart in arguments.apart]))
     print_table(rows, arguments.apart)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(command_line.guarded(make_parser(), tabulate))

@@ -6,14 +6,15 @@
                                       SVG, PDF and PNG
 DIR is the output folder of trajlo_compare_solvers. Needs Debian's python3-numpy,
 python3-matplotlib and python3-jinja2.
+
+Exit codes: 0 done, 1 wrong usage, 2 input unreadable, 5 output not writable.
 """
-import argparse
 import pathlib
 import sys
 
 from trajlo_report import comparison_words as words
 from trajlo_report import figures_comparison as figures
-from trajlo_report import files, page, theme
+from trajlo_report import command_line, files, page, theme
 
 
 def with_notes(caption, left_out):
@@ -23,7 +24,7 @@ def with_notes(caption, left_out):
 
 
 def draw_lockstep(folder, lockstep, width_in):
-    """Figures of single windows: (name, figure, caption)."""
+    """Figures of single windows: (name, figure or nothing, caption)."""
     table = files.read_columns(folder / "lockstep.csv")
     iterations = files.read_columns(folder / "iterations.csv")
     first, slow = lockstep[0]["name"], figures.too_slow(lockstep)
@@ -51,24 +52,26 @@ def draw_all(folder, lockstep, free, width_in):
     return drawn
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+def make_parser():
+    parser = command_line.Parser(description=__doc__)
     parser.add_argument("comparison", type=pathlib.Path,
                         help="output folder of trajlo_compare_solvers")
     parser.add_argument("--title", default="Comparison of solvers")
-    arguments = parser.parse_args()
+    return parser
+
+
+def draw(arguments):
     folder = arguments.comparison
-    try:
-        document = files.read_json(folder / "comparison.json")
-    except files.ReportError as error:
-        sys.exit(f"draw_comparison.py: {error}")
+    document = files.read_json(folder / "comparison.json")
     theme.apply()
     lockstep = [item for item in document["variants"] if "lockstep" in item]
     free = [item for item in document["variants"] if "free" in item]
-    (folder / "figures").mkdir(exist_ok=True)
-    drawn = []
+    files.make_folder(folder / "figures")
+    drawn, undrawn = [], []
     for name, figure, caption in draw_all(folder, lockstep, free, theme.COLUMN_IN):
+        if figure is None:
+            undrawn.append(caption)
+            continue
         width = int(140 * figure.get_size_inches()[0])
         paths = theme.save(figure, folder / "figures" / name)
         drawn.append({"path": paths[0], "caption": caption, "width": width})
@@ -76,11 +79,15 @@ def main():
     files.write_atomically(report, page.render(
         "comparison.html", title=arguments.title, document=document, lockstep=lockstep,
         free=free, figures=drawn, versions=page.flatten(document["versions"]),
-        conclusions=words.of_windows(lockstep) + words.of_runs(free),
+        conclusions=[
+            *words.of_windows(lockstep), *words.by_whole_runs_only(document["variants"]),
+            *words.of_runs(free)],
+        undrawn=undrawn, few_poses=words.few_poses,
         leaves_s={item["name"]: words.since_begin(folder, item) for item in free},
         length=words.small_length, config=(folder / "config.yaml").read_text()))
     print(f"{report}: {len(document['variants'])} variants, {len(drawn)} figures")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(command_line.guarded(make_parser(), draw))

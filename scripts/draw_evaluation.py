@@ -7,31 +7,30 @@
   scripts/draw_evaluation.py DIR --width page     figures as wide as both columns of a paper
 DIR is the output folder of trajlo_evaluate. Needs Debian's python3-numpy, python3-matplotlib and
 python3-jinja2.
+
+Exit codes: 0 done, 1 wrong usage, 2 input unreadable, 5 output not writable.
 """
-import argparse
 import pathlib
 import sys
 
-from trajlo_report import evaluated, evaluation_words, figures_evaluation, files, page
-from trajlo_report import theme
+from trajlo_report import (command_line, evaluated, evaluation_words, figures_evaluation, files,
+                           page, theme)
 
 WIDTHS = {"column": theme.COLUMN_IN, "page": theme.PAGE_IN}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+def make_parser():
+    parser = command_line.Parser(description=__doc__)
     parser.add_argument("evaluation", type=pathlib.Path, help="output folder of trajlo_evaluate")
     parser.add_argument("--width", choices=WIDTHS, default="column", help="width of the figures")
     parser.add_argument("--output", type=pathlib.Path, help="the folder to write, in place of DIR")
     parser.add_argument("--title", default="Evaluation of trajectories")
-    arguments = parser.parse_args()
-    output = arguments.output or arguments.evaluation
-    try:
-        document, estimates = files.read_evaluation(arguments.evaluation)
-    except files.ReportError as error:
-        sys.exit(f"draw_evaluation.py: {error}")
+    return parser
 
+
+def draw(arguments):
+    output = arguments.output or arguments.evaluation
+    document, estimates = files.read_evaluation(arguments.evaluation)
     drawn = figures_evaluation.draw_all(estimates, output / "figures",
                                         width_in=WIDTHS[arguments.width])
     shown = {estimate.name for _, estimate in evaluated.drawable(estimates)}
@@ -48,7 +47,8 @@ def main():
     files.write_atomically(report, text)
     count = "1 estimate" if len(estimates) == 1 else f"{len(estimates)} estimates"
     print(f"{report}: {count}, {len(drawn)} figures in {output / 'figures'}")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(command_line.guarded(make_parser(), draw))

@@ -10,38 +10,38 @@
 RESULT is the output folder of trajlo_run; of an interrupted or lost run, what is there is shown.
 The page needs no network; a browser with WebGL 2 turns the map. Needs Debian's python3-numpy,
 python3-scipy, python3-matplotlib, python3-jinja2, python3-yaml and libjs-three.
+
+Exit codes: 0 done, 1 wrong usage, 2 input unreadable, 5 output not writable.
 """
-import argparse
 import pathlib
 import sys
 
-from trajlo_report import files, run_page, view_cloud
+from trajlo_report import command_line, files, run_page, view_cloud
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+
+def make_parser():
+    parser = command_line.Parser(description=__doc__)
     parser.add_argument("result", type=pathlib.Path, help="the output folder of trajlo_run")
     parser.add_argument("--evaluation", type=pathlib.Path, help="output folder of trajlo_evaluate")
     parser.add_argument("--output", type=pathlib.Path, help="the folder to write; default: RESULT")
-    parser.add_argument("--points", type=int, default=view_cloud.BUDGET,
+    parser.add_argument("--points", type=command_line.positive, default=view_cloud.BUDGET,
                         help="the most points in the 3-D view; default: %(default)s")
     parser.add_argument("--title", help="in place of the recording's name")
-    arguments = parser.parse_args()
+    return parser
+
+
+def draw(arguments):
     output = arguments.output or arguments.result
     if not arguments.result.is_dir():
-        sys.exit(f"draw_run.py: {arguments.result} is not a folder")
+        raise files.ReportError(f"{arguments.result} is not a folder")
     if not any((arguments.result / name).is_file() for name in ("run.json", "trajectory.tum")):
-        sys.exit(f"draw_run.py: {arguments.result} holds no result of trajlo_run (run.json)")
-    if arguments.points < 1:
-        parser.error("--points must be at least 1")
-    try:
-        file, shown = run_page.write(arguments.result, output, arguments.evaluation,
-                                     arguments.title, arguments.points)
-    except files.ReportError as error:
-        sys.exit(f"draw_run.py: {error}")
+        raise files.ReportError(f"{arguments.result} holds no result of trajlo_run (run.json)")
+    file, shown = run_page.write(arguments.result, output, arguments.evaluation, arguments.title,
+                                 arguments.points)
     figures = len(shown["figures"]) + len(shown["evaluation_figures"])
     print(f"{file}: {file.stat().st_size / 1e6:.1f} MB, {figures} figures. {shown['verdict']}")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(command_line.guarded(make_parser(), draw))

@@ -4,29 +4,16 @@ import argparse
 import os
 import pathlib
 import re
+import shlex
 import signal
 import sys
 
+from trajlo_batch import results
 from trajlo_batch.places import BUILD, ROOT, WORK, Places
+from trajlo_batch.plan import DONE
 from trajlo_batch.yaml_lines import SuiteError
-
-
-class Parser(argparse.ArgumentParser):
-    """Wrong usage ends with 1, as it does with the other programs."""
-
-    def __init__(self, **keywords):
-        super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, **keywords)
-
-    def error(self, message):
-        self.print_usage(sys.stderr)
-        self.exit(1, f"{self.prog}: {message}\n")
-
-
-def positive(text):
-    number = int(text)
-    if number < 1:
-        raise argparse.ArgumentTypeError("must be at least 1")
-    return number
+from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401
+from trajlo_report.files import WriteError
 
 
 def add_work_arguments(parser, run_name):
@@ -57,10 +44,30 @@ def add_build_argument(parser):
                         help="the build to run; default: $TRAJLO_BUILD_DIR, else build/")
 
 
+def default_output(name):
+    return pathlib.Path(os.environ.get("TRAJLO_RUNS", WORK / "runs")) / name
+
+
 def places_of(arguments, name):
-    output = arguments.output or (
-        pathlib.Path(os.environ.get("TRAJLO_RUNS", WORK / "runs")) / name)
+    output = arguments.output or default_output(name)
     return Places(arguments.build.resolve(), arguments.data.resolve(), output.resolve())
+
+
+def call_of(script, kind, file, places):
+    """How this script was called with this file, from the folder where it was, as far as others
+    have to call it so to find the same results."""
+    of_project = file.parent == ROOT / "config" / kind
+    default = default_places(file.stem)
+    more = [f"--{name}={getattr(places, name)}" for name in ("output", "data", "build")
+            if getattr(places, name) != getattr(default, name)]
+    return shlex.join([f"scripts/{script}", file.stem if of_project else str(file), *more])
+
+
+def default_places(name):
+    """The places where nothing is said about them."""
+    parser = argparse.ArgumentParser()
+    add_work_arguments(parser, "run")
+    return places_of(parser.parse_args([]), name)
 
 
 def alike(missing):
@@ -91,7 +98,10 @@ def say_missing(suite, missing):
 def show_list(plan):
     for number, run in enumerate(plan.runs, 1):
         why = f" ({', '.join(run.changes)} changed)" if run.changes else ""
-        print(f"{number:4} {run.state:8} {plan.suite.described(run)}{why}")
+        ended = results.ended(plan.places.output / run.folder) if run.state == DONE else None
+        failed = ended and ended.result == results.FAILED
+        print(f"{number:4} {results.FAILED if failed else run.state:8} {plan.suite.described(run)}"
+              f"{f' ({ended.reason})' if failed else why}")
 
 
 def interrupt(*_):
@@ -108,7 +118,8 @@ def guarded(parser, work, how_to_go_on="the same command goes on where this one 
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 1
     except OSError as error:
-        print(f"{parser.prog}: {error}", file=sys.stderr)
+        cannot = "be written" if isinstance(error, WriteError) else "be read or written"
+        print(f"{parser.prog}: {sentence(error, cannot)}", file=sys.stderr)
         return 5
     except KeyboardInterrupt:
         print(f"interrupted; {how_to_go_on}", file=sys.stderr)

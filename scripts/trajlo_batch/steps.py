@@ -171,6 +171,11 @@ def run(job_file):
             run_alone(job, folder)
 
 
+def megabytes(usage):
+    """The most memory, as run.json has it: Linux counts in KiB."""
+    return 1024 * usage.ru_maxrss / 1e6
+
+
 def run_alone(job, folder):
     result = folder / "result"
     if result.exists():  # of a run that was killed: there is no status.json
@@ -200,7 +205,7 @@ def run_alone(job, folder):
         "depends_on": job["depends_on"], "exit_code": code, "reason": reason, "command": command,
         "program": job["program"], "started": started.isoformat(timespec="seconds"),
         "wall_s": time.monotonic() - clock, "cpu_s": usage.ru_utime + usage.ru_stime,
-        "peak_memory_mb": usage.ru_maxrss / 1000.0, "host": socket.gethostname()})
+        "peak_memory_mb": megabytes(usage), "host": socket.gethostname()})
 
 
 def evaluate(job_file):

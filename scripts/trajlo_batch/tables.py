@@ -89,9 +89,10 @@ def result_cell(rows, suite, decimals):
 
 
 def average_cell(cells, decimals):
-    """The mean over all sequences; over some of them it says so, and is not compared."""
-    values = [cell.value for cell in cells if cell.text != ABSENT]
-    if not values or any(math.isnan(value) for value in values):
+    """The mean over all sequences; over some of them, such as those without an x, it says so, and
+    is not compared."""
+    values = [cell.value for cell in cells if not math.isnan(cell.value)]
+    if not values:
         return Cell(ABSENT)
     text = f"{statistics.fmean(values):.{decimals}f}"
     if len(values) < len(cells):
@@ -120,14 +121,46 @@ def best_of(cells, attribute, metric):
             setattr(cell, attribute, True)
 
 
+def seeds_of_cells(rows):
+    """How many seeds each cell has: {(configuration, group): count}; none of a real recording."""
+    counts = {}
+    for row in rows:
+        cell = row["configuration"], row["group"]
+        counts[cell] = counts.get(cell, 0) + bool(row.get("seed"))
+    return counts
+
+
+def say_fewer_seeds(cell, count, most):
+    """A cell of fewer seeds than others says so."""
+    if 0 < count < most and cell.text not in (ABSENT, PENDING):
+        cell.text += " (1 seed)" if count == 1 else f" ({count} seeds)"
+
+
+def seeds_note(suite, rows):
+    """What the values are of; nothing where no cell has more than one seed."""
+    counts = set(seeds_of_cells(rows).values())
+    least, most = min(counts - {0}, default=0), max(counts, default=0)
+    if most < 2:
+        return []
+    said = f"of {most} seeds" if least == most else (
+        f"over the seeds of its sequence: {least} to {most}, and a cell of fewer than {most} says "
+        "of how many")
+    real = "; real recordings have no seeds" if 0 in counts else ""
+    return [f"Each value is the {suite.over_seeds} {said}{real}; (1 x) says that one of them "
+            f"failed, (1 of {most}) that only one has ended."]
+
+
 def our_lines(suite, rows, columns, decimals, average=""):
     lines, groups = [], {sequence.group for sequence in suite.sequences}
+    seeds = seeds_of_cells(rows)
+    most = max(seeds.values(), default=0)
     for configuration in suite.configurations:
         cells = []
         for column in columns:
             found = [row for row in rows if row["configuration"] == configuration.name
                      and row["group"] == column]
             cells.append(result_cell(found, suite, decimals))
+            say_fewer_seeds(cells[-1], seeds.get((configuration.name, column), 0), most)
         for index, column in enumerate(columns):
             if column == average:
                 cells[index] = average_cell(
@@ -162,11 +195,8 @@ def suite_table(suite, rows, marked=True):
     # With one configuration there is nothing to be better than.
     if marked and len(lines) > 1:
         mark(lines, suite.metric)
-    seeds = {sequence.seed for sequence in suite.sequences if sequence.seed}
     notes = [f"{group}: degenerate by construction ({why})" for group, why in degenerate.items()]
-    if len(seeds) > 1:
-        notes.append(f"Each value is the {suite.over_seeds} of {len(seeds)} seeds; (1 x) says that "
-                     f"one of them failed, (1 of {len(seeds)}) that only one has ended.")
+    notes += seeds_note(suite, rows)
     columns = [f"{group} †" if group in degenerate else group for group in groups]
     return Table(f"{suite.title}: {METRICS.get(suite.metric, suite.metric)}", columns, lines, notes,
                  transposed=suite.rows == "sequences")

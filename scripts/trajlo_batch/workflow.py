@@ -10,14 +10,16 @@ from trajlo_batch import results
 from trajlo_batch.places import ROOT
 from trajlo_batch.progress import ProgressBar, ProgressLines
 from trajlo_batch.yaml_lines import SuiteError
+from trajlo_report.files import make_folder, writing
 
 WORKFLOW = ROOT / "scripts" / "workflow"
 
 
 def lock(output):
     """Holds OUTPUT until this process ends, in whichever way; its jobs end with it."""
-    output.mkdir(parents=True, exist_ok=True)
-    file = (output / ".batch_lock").open("w")
+    make_folder(output)
+    with writing(output / ".batch_lock"):
+        file = (output / ".batch_lock").open("w")
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:

@@ -6,6 +6,8 @@ import signal
 import subprocess
 import threading
 
+from trajlo_batch.steps import megabytes
+
 CPU_S = 60        # a run needs about one
 WALL_S = 600      # for one that waits for ever; far above what a busy machine needs
 MEMORY_BYTES = 8 << 30
@@ -40,4 +42,4 @@ def execute(command, log_file, cpu_s=CPU_S, wall_s=WALL_S):
     process.returncode = code  # it was waited for behind its back
     if waited_too_long.is_set() or code == -signal.SIGXCPU:
         code = HUNG
-    return Ended(code, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1000.0)
+    return Ended(code, usage.ru_utime + usage.ru_stime, megabytes(usage))

@@ -3,7 +3,7 @@
 import math
 import re
 
-from trajlo_batch import results
+from trajlo_batch import command_line, results
 from trajlo_batch.batch_report import summary
 from trajlo_experiment import analysis, conclusion, figures, figures_tradeoff, table
 from trajlo_experiment.findings import Findings, level_text
@@ -96,7 +96,6 @@ def write_report(plan):
     if not plan.runs:
         return []
     rows = table.collect(plan)
-    output.mkdir(parents=True, exist_ok=True)
     write_atomically(output / "results.csv", to_csv(rows))
     findings = Findings(study, rows)
     drawn = figures.draw_all(findings, output / "figures") if findings.rows else []
@@ -111,6 +110,7 @@ def write_report(plan):
         warnings=conclusion.warnings(plan), caution=conclusion.caution(findings),
         figures=drawn,
         runs=run_lines(findings, rows), run_columns=RUN_COLUMNS, shown=shown, programs=programs,
-        missing=plan.missing, text=study.file.read_text())
+        missing=plan.missing, text=study.file.read_text(),
+        call=command_line.call_of("experiment", "experiments", study.file, plan.places))
     write_atomically(output / "report.html", text)
     return rows

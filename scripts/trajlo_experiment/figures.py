@@ -4,7 +4,7 @@ import re
 
 from trajlo_experiment import (designs, figures_heat, figures_levels, figures_parallel,
                                figures_sensitivity, figures_tornado, figures_tradeoff)
-from trajlo_report import theme
+from trajlo_report import files, theme
 
 MOST_ROWS = 4  # levels of a third factor that get a line of panels each
 
@@ -76,7 +76,7 @@ def all_figures(findings):
 
 def draw_all(findings, folder):
     """Writes all figures; returns those of the page with captions and widths."""
-    folder.mkdir(parents=True, exist_ok=True)
+    files.make_folder(folder)
     theme.apply()
     drawn = []
     for name, figure, caption in all_figures(findings):

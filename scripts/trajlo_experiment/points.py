@@ -16,7 +16,7 @@ from trajlo_batch.yaml_lines import SuiteError
 from trajlo_experiment import designs
 from trajlo_experiment.conclusion import level_of
 from trajlo_experiment.experiment import CENTER
-from trajlo_experiment.factors import SIMULATE, number_or_text
+from trajlo_experiment.factors import SIMULATE, number_or_text, text_of
 
 
 @dataclasses.dataclass
@@ -99,33 +99,68 @@ def design_levels(experiment, shown, output):
     return sampled_levels(experiment, output)
 
 
-def add(points, point):
-    """Adds a point, or only its marks if it is there."""
-    known = points.setdefault(point.name, point)
-    if known is not point:
-        known.marks += point.marks
-        known.in_design |= point.in_design
+def marked_point(experiment, mark, values):
+    levels = {**experiment.center,
+              **{key: value for key, value in values.items() if experiment.factor(key)}}
+    extra = {key: value for key, value in values.items() if not experiment.factor(key)}
+    point = make_point(experiment, levels, extra)
+    point.in_design, point.marks = False, (mark,)
+    return point
 
 
-def make_points(experiment, shown, output):
-    points = {}
-    for index, levels in enumerate(design_levels(experiment, shown, output)):
+def beyond(point, defaults):
+    """What a point sets to something else than the recordings have by themselves."""
+    settings = {**point.options,
+                **{f"{SIMULATE}{key}": text for key, text in point.parameters.items()}}
+    return {key: text for key, text in settings.items()
+            if key not in defaults or number_or_text(text) != number_or_text(text_of(defaults[key]))}
+
+
+def does_the_same(places, experiment, one, other):
+    """Whether two points that seem to set the same have the same options on all recordings."""
+    for sequence in {str((base.config, base.settings)): base
+                     for base in experiment.base_sequences}.values():
+        texts = [checks.effective_options(
+            places, experiment, Configuration(point.name, "", settings=point.options), sequence)[0]
+            for point in (one, other)]
+        if yaml.safe_load(texts[0]) != yaml.safe_load(texts[1]):
+            return False
+    return True
+
+
+def add_marked(points, point, defaults, places, experiment):
+    """Adds a mark, or gives its name to the point that does the same in other words: the defaults
+    are on many a grid."""
+    twin = points.get(point.name) or next(
+        (known for known in points.values() if beyond(known, defaults) == beyond(point, defaults)
+         and does_the_same(places, experiment, known, point)), None)
+    if twin:
+        twin.marks += point.marks
+    else:
+        points[point.name] = point
+
+
+def make_points(experiment, defaults, places):
+    points, shown = {}, shown_values(experiment, defaults)
+    for index, levels in enumerate(design_levels(experiment, shown, places.output)):
         point = make_point(experiment, levels)
         if experiment.design.kind == designs.ONE_AT_A_TIME and index == 0:
             point.marks = (CENTER,)
-        add(points, point)
+        points.setdefault(point.name, point)
     for mark, values in experiment.marks.items():
-        levels = {**experiment.center,
-                  **{key: value for key, value in values.items() if experiment.factor(key)}}
-        extra = {key: value for key, value in values.items() if not experiment.factor(key)}
-        point = make_point(experiment, levels, extra)
-        point.in_design, point.marks = False, (mark,)
-        add(points, point)
+        add_marked(points, marked_point(experiment, mark, values), defaults, places, experiment)
     return tuple(points.values())
 
 
-def shown_values(experiment, places):
-    """What factors are when no point sets them, as far as that is the same on all sequences."""
+def shown_values(experiment, defaults):
+    """What factors are when no point sets them."""
+    return {factor.name: defaults[factor.key] for factor in experiment.factors
+            if factor.key in defaults}
+
+
+def default_values(experiment, places):
+    """What options and parameters are when no point sets them, as far as that is the same on all
+    sequences: {key: value}."""
     found = []
     seen = {}
     for sequence in experiment.base_sequences:
@@ -141,9 +176,8 @@ def shown_values(experiment, places):
             values.update({f"{SIMULATE}{key}": number_or_text(value)
                            for key, value in listed.items()})
         found.append(values)
-    keys = {factor.name: factor.key for factor in experiment.factors if factor.key}
-    return {name: found[0][key] for name, key in keys.items()
-            if all(key in values and values[key] == found[0][key] for values in found)}
+    return {key: value for key, value in found[0].items()
+            if all(key in values and values[key] == value for values in found)}
 
 
 def with_parameters(experiment, sequence, parameters):
@@ -160,8 +194,8 @@ def with_parameters(experiment, sequence, parameters):
 
 def make_study(experiment, places):
     """Points and runs. Throws SuiteError where an option or a parameter is refused."""
-    shown = shown_values(experiment, places)
-    points = make_points(experiment, shown, places.output)
+    defaults = default_values(experiment, places)
+    points = make_points(experiment, defaults, places)
     sequences, pairs = {}, []
     for point in points:
         configuration = Configuration(point.name, words_of(experiment, point),
@@ -170,7 +204,8 @@ def make_study(experiment, places):
             sequence = with_parameters(experiment, base, point.parameters)
             sequences.setdefault(sequence.name, sequence)
             pairs.append((configuration, sequence))
-    return Study(experiment, points, shown, tuple(sequences.values()), tuple(pairs))
+    return Study(experiment, points, shown_values(experiment, defaults), tuple(sequences.values()),
+                 tuple(pairs))
 
 
 def save_design(study, output):

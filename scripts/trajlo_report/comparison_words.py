@@ -76,16 +76,35 @@ def of_windows(lockstep):
     return said
 
 
+def by_whole_runs_only(variants):
+    """Why some variants are not among those that solve the same windows."""
+    lockstep = [item["name"] for item in variants if "lockstep" in item]
+    others = [item["name"] for item in variants if "lockstep" not in item]
+    if not lockstep or not others:
+        return []
+    one = len(others) == 1
+    return [f"{listed(others)} {'is' if one else 'are'} not among the windows, as "
+            f"{'it changes' if one else 'they change'} more than how a window of {lockstep[0]} is "
+            "solved, such as windows or segments themselves: only whole runs compare "
+            f"{'it' if one else 'them'}."]
+
+
+def few_poses(item):
+    """Whether most poses of a run are at other times than those of the first."""
+    return 2 * item["free"]["poses_compared"] < item["free"]["poses"]
+
+
 def of_runs(free):
     if len(free) < 2:
         return []
-    others = [item for item in free if 2 * item["free"]["poses_compared"] < item["free"]["poses"]]
+    others = [item for item in free if few_poses(item)]
     said = agreement([item for item in free if item not in others],
                      lambda item: item["free"]["max_from_first_m"],
                      ("end with a trajectory that equals", "ends with a trajectory that equals"))
     if others:
         said.append(f"{listed([item['name'] for item in others])}: most poses are at other times "
-                    f"than those of {free[0]['name']}, and are not compared with them.")
+                    f"than those of {free[0]['name']}, as segments differ. Only the few at the same "
+                    "times are compared, in the table below.")
     lost = [item["name"] for item in free if item["free"].get("lost_at_s")]
     if lost:
         said.append(f"{listed(lost)} got lost.")

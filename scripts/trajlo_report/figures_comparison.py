@@ -64,9 +64,13 @@ def too_slow(variants):
 
 
 def draw_costs(iterations, variants, width_in):
+    """Nothing where no variant has anything to lose."""
+    curves = cost_curves(iterations, variants)
+    if not curves:
+        return None
     figure, axes = theme.plt.subplots(figsize=(width_in, 0.95 * width_in),
                                        constrained_layout=True)
-    for index, item, curve in cost_curves(iterations, variants):
+    for index, item, curve in curves:
         axes.semilogy(curve, label=item["name"], marker=".", ms=3,
                       **theme.method_style(index))
     axes.set(xlabel="step", ylabel="cost above the lowest, as a share of it")
@@ -107,7 +111,10 @@ def draw_stages(variants, width_in):
 
 
 def draw_distances(lockstep, variants, width_in):
-    """How far apart solutions of the same window are, as a cumulated histogram."""
+    """How far apart solutions of the same window are, as a cumulated histogram; nothing of one
+    variant alone."""
+    if len(variants) < 2:
+        return None
     figure, axes = theme.plt.subplots(figsize=(width_in, 0.95 * width_in),
                                        constrained_layout=True)
     for index, item in enumerate(variants[1:], 1):

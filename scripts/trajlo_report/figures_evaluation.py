@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """All figures of an evaluation."""
-from trajlo_report import evaluated, figures_errors, figures_path
-from trajlo_report import theme
+from trajlo_report import evaluated, figures_errors, figures_path, files, theme
 
 FIGURES = {
     "trajectory": (figures_path.draw_planes, "Truth and estimates in three planes, aligned"),
@@ -17,7 +16,7 @@ FIGURES = {
 def draw_all(estimates, folder, dpi=250, width_in=theme.COLUMN_IN, formats=theme.FORMATS):
     """Draws what there is to draw into `folder`; returns the paths of the first format, with
     captions and widths for a page."""
-    folder.mkdir(parents=True, exist_ok=True)
+    files.make_folder(folder)
     drawn = []
     if not evaluated.drawable(estimates):
         return drawn

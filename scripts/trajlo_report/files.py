@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Reads what trajlo_run and trajlo_evaluate write, and writes pages."""
+import contextlib
 import csv
 import dataclasses
 import decimal
@@ -15,13 +16,32 @@ class ReportError(Exception):
     """A file that a report needs is missing or not what it should be."""
 
 
+class WriteError(OSError):
+    """A file or folder that cannot be written; other OSErrors are of reading."""
+
+
+@contextlib.contextmanager
+def writing(path):
+    """What fails inside is about writing `path`, also where the system names no file."""
+    try:
+        yield
+    except OSError as error:
+        raise WriteError(error.errno, error.strerror, str(path)) from error
+
+
+def make_folder(path):
+    with writing(path):
+        pathlib.Path(path).mkdir(parents=True, exist_ok=True)
+
+
 def write_atomically(path, text):
     """Never leaves half a file: written beside, then renamed."""
     path = pathlib.Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_folder(path.parent)
     beside = path.with_name(f".{path.name}.{os.getpid()}")
-    beside.write_text(text)
-    beside.replace(path)
+    with writing(path):
+        beside.write_text(text)
+        beside.replace(path)
 
 
 def read_tum(path):

@@ -53,7 +53,7 @@ def contents(result, output, evaluation, title, points, formats):
         raise files.ReportError(f"{evaluation} is the evaluation of another trajectory than that "
                                 f"in {result}")
     folder = output / "figures"
-    folder.mkdir(parents=True, exist_ok=True)
+    files.make_folder(folder)
     theme.apply()
     if run is not None:
         missing = run.missing

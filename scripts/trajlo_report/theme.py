@@ -9,6 +9,8 @@ import pathlib
 import matplotlib
 import matplotlib.pyplot as plt
 
+from trajlo_report import files
+
 COLUMN_IN = 3.5  # one column of a two-column paper
 PAGE_IN = 7.16   # both
 
@@ -65,7 +67,8 @@ def save(figure, stem, formats=FORMATS, dpi=250):
     undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     for kind in formats:
         path = stem.with_name(f"{stem.name}.{kind}")
-        figure.savefig(path, dpi=dpi, metadata=undated.get(kind, {}))
+        with files.writing(path):
+            figure.savefig(path, dpi=dpi, metadata=undated.get(kind, {}))
         # To place all texts takes as long as to draw them; once is enough for all formats.
         figure.set_layout_engine("none")
         paths.append(path)

@@ -81,6 +81,20 @@ class FolderTest(unittest.TestCase):
         self.assertIn("</html>", text)
 
 
+def described_columns(readme):
+    """Patterns of the columns that the section results.csv of a README describes."""
+    section = (ROOT / readme).read_text().partition("## results.csv\n")[2].partition("\n## ")[0]
+    cells = [line.split(" | ")[0] for line in section.splitlines() if line.startswith("| ")]
+    return [re.sub("X|LENGTH|FLAG", "[0-9a-z._]+", name) for cell in cells
+            for name in re.findall("`(.+?)`", cell)]
+
+
+def not_described(columns, *readmes):
+    patterns = [pattern for readme in readmes for pattern in described_columns(readme)]
+    return [name for name in columns
+            if not any(re.fullmatch(pattern, name) for pattern in patterns)]
+
+
 def built(name):
     """A program of the build that is tested; the test is skipped where it is not built."""
     build = pathlib.Path(os.environ.get("TRAJLO_BUILD_DIR", ROOT / "build"))

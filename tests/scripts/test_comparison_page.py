@@ -57,7 +57,7 @@ class ComparisonPageTest(FolderTest):
         self.write("comparison.json", json.dumps(self.document))
         done = subprocess.run([SCRIPTS / "draw_comparison.py", self.folder], capture_output=True,
                               text=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assert_self_contained(self.folder / "report.html")
         return (self.folder / "report.html").read_text()
 
@@ -95,6 +95,29 @@ class ComparisonPageTest(FolderTest):
         self.assertIn("Not shown: kernel_huber; their kernels change what is minimised", text)
         self.assertIn("Not shown: slow; they are at their lowest cost from the start", text)
         self.assertIn("Not shown: slow; they take more than 3 times as long as plain", text)
+
+    def test_who_has_other_windows_is_told_to_be_compared_by_whole_runs(self):
+        rough = self.document["variants"][2]
+        del rough["lockstep"]
+        rough["free"]["poses_compared"] = 1
+        text = self.draw()
+        self.assertIn("rough is not among the windows, as it changes more than how a window of "
+                      "plain is solved, such as windows or segments themselves: only whole runs "
+                      "compare it.", text)
+        self.assertIn("rough: most poses are at other times than those of plain, as segments "
+                      "differ. Only the few at the same times are compared, in the table below.",
+                      text)
+        self.assertIn("2 mm (1 of 3 poses)", self.row(text, "rough"))
+
+    def test_a_figure_with_nothing_to_draw_is_left_out_and_said_to_be(self):
+        slow = self.document["variants"][3]
+        self.document["variants"] = [slow]
+        text = self.draw()
+        self.assertEqual(sorted(path.name for path in (self.folder / "figures").glob("*.svg")),
+                         ["free.svg", "points.svg", "stages.svg"])
+        for said in ("nothing to draw: Cost above the lowest", "nothing to draw: Share of the "
+                     "windows", "Not shown: slow; they are at their lowest cost from the start"):
+            self.assertIn(said, text)
 
     def test_whole_runs_alone_have_a_page(self):
         for item in self.document["variants"]:

@@ -4,12 +4,13 @@ import contextlib
 import csv
 import io
 import json
+import re
 import shutil
 import subprocess
 import unittest
 
 from pretended_experiment import PretendedTest
-from support import ROOT, SCRIPTS
+from support import ROOT, SCRIPTS, not_described
 
 from trajlo_batch import command_line, plan, workflow
 from trajlo_batch.yaml_lines import SuiteError
@@ -92,6 +93,31 @@ class PointsTest(PretendedTest):
         self.assertEqual([(point.marks, point.options) for point in points if not point.in_design],
                          [(("defaults",), {})])
 
+    def test_a_mark_that_sets_nothing_but_defaults_is_the_point_of_the_grid_that_does(self):
+        points = self.points(SMALL.replace("[3, 5]", "[3, 4]").replace(
+            "expert.registration.kernel: [none, huber]", "rules: {settings: {ours: {}, other: {a.b: 1}}}"
+        ).replace("window.segments: 5, expert.registration.kernel: none", "window.segments: 4.0"))
+        self.assertEqual(len(points), 4)
+        self.assertEqual([(point.levels, point.marks) for point in points if point.marks],
+                         [({"window.segments": 4, "rules": "ours"}, ("defaults", "chosen"))])
+
+    def test_a_mark_is_no_point_of_the_grid_if_the_program_has_other_options_for_it(self):
+        self.executable("build/apps/trajlo_run", "#!/bin/sh\necho 'window: {segments: 4}'\n"
+                        "case \"$*\" in *segments=4*) echo 'tuned: false' ;; esac\n")
+        points = self.points(SMALL.replace("[3, 5]", "[3, 4]").replace("none, huber", "none"))
+        self.assertIn(((), {"window.segments": "4", "expert.registration.kernel": "none"}),
+                      [(point.marks, point.options) for point in points])
+        self.assertIn((("defaults",), {}), [(point.marks, point.options) for point in points])
+
+    def test_a_mark_with_the_default_of_a_parameter_is_no_recording_of_its_own(self):
+        self.executable("build/apps/trajlo_simulate",
+                        "#!/bin/sh\necho motion.speed_mps=3\necho lidar0.channels=16\n")
+        text = SMALL.replace("window.segments", "simulate.motion.speed_mps").replace(
+            "expert.registration.kernel: [none, huber]", "a.b: {settings: {ours: {}}}").replace(
+            "expert.registration.kernel: none", "a.b: ours")
+        points = self.points(text)
+        self.assertEqual([point.marks for point in points], [("defaults",), ("chosen",)])
+
     def test_one_at_a_time_takes_what_the_program_shows_as_the_centre(self):
         points = self.points(ONE_AT_A_TIME)
         self.assertEqual([(point.levels, point.marks) for point in points], [
@@ -140,6 +166,26 @@ class TerminalTest(PretendedTest):
         self.assertEqual((len(ended), complete), (10, 10))
         self.assertEqual(ended[said].result, "ok")
 
+    def test_the_page_says_how_to_repeat_a_row_from_where_it_was_called(self):
+        self.pretend_build()
+        self.write("own/e.yaml", SMALL)
+        command = [SCRIPTS / "experiment", "own/e.yaml", "--build", self.places.build,
+                   "--output", self.places.output, "--report"]
+        subprocess.run(command, capture_output=True, check=False, cwd=self.folder)
+        page = (self.places.output / "report.html").read_text()
+        said = re.search("<code>scripts/(experiment .*) --command ROW</code>", page).group(1)
+        self.assertTrue(said.startswith("experiment own/e.yaml "), said)
+        done = subprocess.run([*f"{SCRIPTS}/{said}".split(), "--command", "1"], text=True,
+                              capture_output=True, check=False, cwd=self.folder)
+        self.assertEqual(done.stderr, "experiment: row 1 was not run yet\n")
+
+    def test_an_experiment_of_the_project_is_called_by_its_name(self):
+        file = ROOT / "config" / "experiments" / "weights.yaml"
+        self.assertEqual(
+            command_line.call_of("experiment", "experiments", file,
+                                 command_line.default_places("weights")),
+            "scripts/experiment weights")
+
     def test_a_sweep_of_densities_that_tune_themselves_is_warned_of_before_the_first_run(self):
         self.executable("build/apps/trajlo_run", "#!/bin/sh\n"
                         "echo 'motion_prior: {self_tuning: true}'\n")
@@ -170,6 +216,11 @@ class TableTest(PretendedTest):
                           row["share_lost"]), (0.1, 0.5, 0.25, 0.0))
         self.assertEqual(row["cpu_ms_per_data_second"], 500.0)
         self.assertIn("trajlo_run 0.1.0", row["program"])
+
+    def test_every_column_is_described(self):
+        columns = [name for name in self.rows()[0] if "." not in name]  # those with dots are options
+        self.assertEqual(not_described(columns, "config/experiments/README.md",
+                                       "config/suites/README.md"), [])
 
     def test_a_metric_whose_least_value_is_not_the_best_is_refused(self):
         def check(metric):

@@ -116,7 +116,7 @@ class EvaluationPageTest(FolderTest):
     def test_a_folder_that_is_no_evaluation_is_named(self):
         done = subprocess.run([SCRIPTS / "draw_evaluation.py", self.folder], capture_output=True,
                               text=True, check=False)
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("evaluation.json is missing", done.stderr)
 
     def test_names_are_text_and_never_markup(self):
@@ -163,7 +163,7 @@ class RunPageTest(FolderTest):
         before = sorted(own.iterdir())
         done = subprocess.run([SCRIPTS / "draw_run.py", own, "--evaluation", evaluation],
                               capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertEqual(done.returncode, 2, done.stdout)
         self.assertIn(f"{evaluation} is the evaluation of another trajectory than that in {own}",
                       done.stderr)
         self.assertEqual(sorted(own.iterdir()), before)
@@ -173,8 +173,8 @@ class RunPageTest(FolderTest):
         self.assertIn('"count": 77, ', self.draw("--points", "77"))
         done = subprocess.run([SCRIPTS / "draw_run.py", self.folder, "--points", "0"],
                               capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("--points must be at least 1", done.stderr)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--points: must be at least 1", done.stderr)
 
     def test_without_its_library_the_page_says_what_to_install(self):
         with unittest.mock.patch.object(view, "THREE", self.folder / "nothing"):
@@ -183,7 +183,7 @@ class RunPageTest(FolderTest):
     def test_a_folder_that_is_no_result_is_refused_and_left_alone(self):
         done = subprocess.run([SCRIPTS / "draw_run.py", self.folder], capture_output=True,
                               text=True, check=False)
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("holds no result", done.stderr)
         self.assertEqual(list(self.folder.iterdir()), [])
 

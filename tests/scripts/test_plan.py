@@ -5,10 +5,11 @@ import io
 import json
 import os
 import pathlib
+import subprocess
 import tempfile
 import unittest
 
-from support import FolderTest
+from support import SCRIPTS, FolderTest, not_described
 
 from trajlo_batch import plan, results
 from trajlo_batch.places import Places
@@ -41,6 +42,53 @@ class PlannedTest(FolderTest):
         for run in batch.runs:
             (self.places.output / run.folder / "status.json").write_text(json.dumps(
                 {"depends_on": run.job["depends_on"], "exit_code": exit_code, "reason": "ok"}))
+
+
+class OnlyTest(PlannedTest):
+    """What scripts/batch says about some of the runs of a suite."""
+
+    def setUp(self):
+        super().setUp()
+        batch = self.plan()
+        self.finish(batch)
+        for run, code, reason in zip(batch.runs, (0, -9), ("ok", "timeout")):
+            folder = self.places.output / run.folder
+            (folder / "status.json").write_text(json.dumps(
+                {"depends_on": run.job["depends_on"], "exit_code": code, "reason": reason,
+                 "wall_s": 1.0}))
+            (folder / "evaluation_status.json").write_text(json.dumps(
+                {"exit_code": 0, "reason": "no truth"}))
+
+    def batch(self, *arguments):
+        return subprocess.run(
+            [SCRIPTS / "batch", self.folder / "s.yaml", "--build", self.places.build, "--output",
+             self.places.output, *arguments], capture_output=True, text=True, check=False)
+
+    def test_a_run_that_only_leaves_out_does_not_decide_how_the_batch_ends(self):
+        done = self.batch("--only", "plain/*", "--report")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertNotIn("timeout", done.stdout)
+        self.assertIn("1 without truth, 1 with an x", done.stdout)
+        done = self.batch("--only", "varied/*", "--report")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("  x varied/hall_os1_16-seed1: timeout\n", done.stdout)
+
+    def test_every_column_of_its_results_is_described(self):
+        self.batch("--report")
+        head, *_ = (self.places.output / "results.csv").read_text().splitlines()
+        self.assertIn("peak_memory_mb", head)
+        self.assertEqual(not_described([*head.split(","), "rpe_1m_rotation_rmse_deg"],
+                                       "config/suites/README.md"), [])
+
+    def test_the_page_says_the_whole_rule_of_an_x(self):
+        self.batch("--report")
+        self.assertIn("above both 10 % of the path and 0.5 m",
+                      (self.places.output / "report.html").read_text())
+
+    def test_the_list_says_which_runs_failed(self):
+        self.assertEqual(self.batch("--list").stdout,
+                         "   1 done     plain/hall_os1_16-seed1\n"
+                         "   2 x        varied/hall_os1_16-seed1 (timeout)\n")
 
 
 class PlanTest(PlannedTest):

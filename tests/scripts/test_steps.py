@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A job gives each run the LiDARs that were asked for, and says how it ended."""
 import json
+import resource
 import signal
 import unittest
 
@@ -29,6 +30,12 @@ sensor:
     - translation_m: [1, 0, 0]
     - translation_m: [2, 0, 0]
 """
+
+
+class MemoryTest(unittest.TestCase):
+    def test_a_megabyte_is_a_million_bytes_as_in_run_json(self):
+        usage = resource.struct_rusage([0.0, 0.0, 100_000, *[0] * 13])  # KiB
+        self.assertEqual(steps.megabytes(usage), 102.4)
 
 
 class RigTest(FolderTest):

@@ -106,13 +106,16 @@ class ComparedTableTest(unittest.TestCase):
         cell = tables.compared_table(suite, rows, published).lines[-1].cells[11]
         self.assertEqual((cell.text, cell.best), ("0.10", True))
 
-    def test_the_average_needs_all_sequences_to_be_numbers(self):
+    def test_the_average_leaves_out_what_has_an_x_and_says_so(self):
         published = read_published(PUBLISHED / "traj_lo_kitti.yaml")
         suite = make_suite(groups=("00", "01"), metric="kitti_translation_percent")
         rows = [row("ours", "00", 0.4), row("ours", "01", 0.6)]
         table = tables.compared_table(suite, rows, published)
         self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "0.50")
         rows[1]["result"] = "x"
+        table = tables.compared_table(suite, rows, published)
+        self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "0.40 (1 of 2)")
+        rows[0]["result"] = "x"
         table = tables.compared_table(suite, rows, published)
         self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "-")
 
@@ -174,6 +177,32 @@ class SuiteTableTest(unittest.TestCase):
         rows[0]["result"] = "not finished"
         self.assertEqual(tables.suite_table(suite, rows).lines[0].cells[0].text, "x (1 of 3)")
 
+    def seeded(self, **counts):
+        return [dict(row("ours", group, 0.1, sequence=f"{group}-seed{seed}"), seed=seed)
+                for group, count in counts.items() for seed in range(1, count + 1)]
+
+    def test_the_footnote_counts_the_seeds_of_a_cell_and_not_those_of_the_suite(self):
+        table = tables.suite_table(make_suite(groups=("a", "b")), self.seeded(a=2, b=2))
+        self.assertIn("Each value is the median of 2 seeds; (1 x) says that one of them failed, "
+                      "(1 of 2) that only one has ended.", table.notes)
+        rows = self.seeded(a=2, b=2)
+        rows[2]["seed"], rows[3]["seed"] = 3, 4
+        self.assertIn("median of 2 seeds;", tables.suite_table(
+            make_suite(groups=("a", "b")), rows).notes[0])
+        one = tables.suite_table(make_suite(groups=("a", "b")), self.seeded(a=1, b=1))
+        self.assertEqual(one.notes, [])
+
+    def test_a_cell_of_fewer_seeds_than_others_says_so(self):
+        rows = self.seeded(a=3, b=1, c=2)
+        rows[-1]["result"] = "x"
+        rows.append(dict(row("ours", "real", 0.1), seed=None))
+        table = tables.suite_table(make_suite(groups=("a", "b", "c", "real")), rows)
+        self.assertEqual([cell.text for cell in table.lines[0].cells],
+                         ["0.1000", "0.1000 (1 seed)", "0.1000 (1 x) (2 seeds)", "0.1000"])
+        note, = table.notes
+        self.assertIn("median over the seeds of its sequence: 1 to 3, and a cell of fewer than 3 "
+                      "says of how many; real recordings have no seeds; (1 x)", note)
+
     def test_an_unfinished_run_is_no_failure(self):
         table = tables.suite_table(make_suite(), [row("ours", "eee_01", None, "not finished")])
         self.assertEqual(table.lines[0].cells[0].text, "…")
@@ -188,6 +217,15 @@ class SuiteTableTest(unittest.TestCase):
         table = tables.speed_table(make_suite(configurations=("ours", "theirs")), rows)
         self.assertEqual([line.cells[0].text for line in table.lines], ["0.12", "2.00"])
         self.assertFalse(any(line.cells[0].best for line in table.lines))
+
+
+    def test_an_average_over_what_did_not_fail_says_so_and_is_not_the_best(self):
+        suite = make_suite(configurations=("ours", "theirs"), groups=("a", "b"), average=True)
+        rows = [row("ours", "a", 0.1), row("ours", "b", None, "x"),
+                row("theirs", "a", 0.2), row("theirs", "b", 0.4)]
+        table = tables.suite_table(suite, rows)
+        self.assertEqual([(line.cells[-1].text, line.cells[-1].best) for line in table.lines],
+                         [("0.1000 (1 of 2)", False), ("0.3000", True)])
 
 
 class FormatsTest(unittest.TestCase):
