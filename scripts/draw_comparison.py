@@ -80,7 +80,7 @@ def draw(arguments):
         "comparison.html", title=arguments.title, document=document, lockstep=lockstep,
         free=free, figures=drawn, versions=page.flatten(document["versions"]),
         conclusions=[
-            *words.of_windows(lockstep), *words.by_whole_runs_only(document["variants"]),
+            *words.of_end(document), *words.of_windows(lockstep), *words.by_whole_runs_only(document["variants"]),
             *words.of_runs(free)],
         undrawn=undrawn, few_poses=words.few_poses,
         leaves_s={item["name"]: words.since_begin(folder, item) for item in free},

@@ -108,15 +108,16 @@ void Compare(const CompareRequest& request, const std::atomic<bool>& stop, Compa
         RunLockstep(request, report->lockstep_variants, stop, &report->lockstep_feed);
     Write(request, *report);
   }
-  if (!request.free) return;
   for (const SolverVariant& variant : request.variants) {
-    if (stop) return;
+    if (!request.free || stop) break;
     FreeResult result = RunFree(request, variant, stop);
     result.ate_rmse_m = ErrorOf(result, truth);
     report->free.push_back(std::move(result));
     CompareWithFirst(report->free.front(), &report->free.back());
     Write(request, *report);
   }
+  report->is_whole = !stop;
+  Write(request, *report);
 }
 
 /// What is to be said of the recording, and of the runs; what is worse wins.

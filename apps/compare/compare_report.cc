@@ -136,6 +136,7 @@ std::string CompareJson(const CompareRequest& request, const CompareReport& repo
   const Versions v = GetVersions();
   const Json json = {
       {"command_line", request.command_line},
+      {"is_whole", report.is_whole},
       {"input", request.inputs},
       {"truth", request.truth.empty() ? Json(nullptr) : Json(request.truth)},
       {"lockstep_options",

@@ -20,6 +20,7 @@ struct CompareReport {
   /// Variants that differ in more than the solution of a window.
   std::vector<std::string> not_in_lockstep;
   std::vector<FreeResult> free;
+  bool is_whole = false;  ///< It came to its end: no signal ended it early.
 };
 
 /// Aligned columns for the screen; times as ratios to the first variant.

@@ -32,6 +32,14 @@ def factor(value):
     return f"{value:.0f}" if value >= 10 else f"{value:.1f}"
 
 
+def of_end(document):
+    """A comparison that a signal ended, or that still goes on, must not read as a finished one."""
+    if document.get("is_whole", True):
+        return []
+    return ["The comparison did not come to its end: the last run is not whole, and variants may "
+            "be missing."]
+
+
 def agreement(items, distance_of, what):
     """Which agree with the first, and how far the farthest is from it; `what`: many do, one does."""
     if len(items) < 2:

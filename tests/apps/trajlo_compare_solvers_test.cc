@@ -38,6 +38,7 @@ TEST_F(TrajloCompareSolversTest, ComparesWindowsAndWholeRuns) {
   const Outcome outcome = Call({"--only=gauss_newton,ceres,kernel_huber", "--every=2"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto json = nlohmann::json::parse(Result("comparison.json"));
+  EXPECT_TRUE(json["is_whole"].get<bool>());
   ASSERT_EQ(json["variants"].size(), 3u);
   const auto& ceres = json["variants"][1];
   EXPECT_EQ(ceres["name"], "ceres");

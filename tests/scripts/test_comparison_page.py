@@ -77,6 +77,12 @@ class ComparisonPageTest(FolderTest):
                      "Position errors reach from 1.0 cm (plain) to 2.0 cm (kernel_huber)."):
             self.assertIn(said, text)
 
+    def test_a_comparison_that_was_cut_short_says_so(self):
+        said = "did not come to its end"
+        self.assertNotIn(said, self.draw())
+        self.document["is_whole"] = False
+        self.assertIn(said, self.draw())
+
     def test_runs_with_poses_at_other_times_are_not_said_to_be_equal(self):
         self.document["variants"][1]["free"]["poses_compared"] = 1
         said = " ".join(words.of_runs(
