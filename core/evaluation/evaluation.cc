@@ -98,10 +98,10 @@ void WarnOfOtherCauses(const TimedPoses& estimate, const TimedPoses& truth, std:
   }
   const ClockDifference clocks = ExplainByClocks(evaluation->pairs);
   if (clocks.share > kWorthSaying && std::abs(clocks.offset_s) > kClockDifference_s) {
-    evaluation->warnings.push_back(
-        FormatText("the error goes along with the velocity, as if the clocks differed by %.3f s; "
-                   "--estimate_time_offset finds out",
-                   clocks.offset_s));
+    evaluation->warnings.push_back(FormatText(
+        "the error goes along with the velocity, as if the clocks differed by some %.1g s; "
+        "--estimate_time_offset finds out",
+        clocks.offset_s));
   }
 }
 
