@@ -82,27 +82,13 @@ void Odometry::Step(SegmentCloud cloud) {
   statistics.restless = RestlessStep(window_.segments.back().cloud);
   AssociateAndSolve(&statistics);
   if (doubt_.IsContradicted(window_)) LookAgain(predicted, &statistics);
-  statistics.correction = MeasureStep(predicted.back(), window_.segments.back().T_world_end);
+  statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
   if (IsBlind()) {
     TakeBackAndSearch(predicted);
     return;
   }
-  window_.is_believed = IsBelievable(statistics, window_);
-  SideTask learning(&threads_);
-  if (window_.is_believed) {
-    NoteSupport();
-    // How noisy the points are, they show at solved poses: a bad prediction is no noise.
-    map_.SetScatter(std::min(PointScatter(window_), options_.registration.kernel_m));
-    learning.Start([&] {
-      motion_prior_.Learn(MeasureInnovation(window_, predicted.back()),
-                          window_.segments.back().Duration_s());
-    });
-  } else {
-    Revert(predicted, &window_);
-  }
-  Describe(window_, &statistics);
-  Judge(options_.registration.points_per_error, &window_, &statistics);
-  learning.Wait();
+  BelieveOrRevert(predicted, statistics);
+  LearnAndJudge(predicted.back(), &statistics);
   Watch(&statistics);
   const int to_keep = SegmentsToKeep();
   while (window_.size() > to_keep) Leave(&statistics);
@@ -126,6 +112,32 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
     }
     s->milliseconds_solve += watch.Milliseconds();
   }
+}
+
+void Odometry::BelieveOrRevert(const std::vector<SE3>& predicted,
+                               const WindowStatistics& statistics) {
+  window_.is_believed = IsBelievable(statistics, window_);
+  if (!window_.is_believed) {
+    Revert(predicted, &window_);
+    return;
+  }
+  NoteSupport();
+  // Solved poses show how noisy the points are: a bad prediction is no noise.
+  map_.SetScatter(std::min(PointScatter(window_), options_.registration.kernel_m));
+}
+
+/// Side by side: neither needs the other.
+void Odometry::LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics) {
+  SideTask learning(&threads_);
+  if (window_.is_believed) {
+    learning.Start([&] {
+      motion_prior_.Learn(MeasureInnovation(window_, T_world_predicted),
+                          window_.segments.back().Duration_s());
+    });
+  }
+  Describe(window_, statistics);
+  Judge(options_.registration.points_per_error, &window_, statistics);
+  learning.Wait();
 }
 
 /// Judges the window by those before it as well.

@@ -94,6 +94,8 @@ class Odometry {
   void NoteSupport();
   void AssociateAndSolve(WindowStatistics* statistics);
   void LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics);
+  void BelieveOrRevert(const std::vector<SE3>& predicted, const WindowStatistics& statistics);
+  void LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics);
   void Watch(WindowStatistics* statistics);
   bool MayEnterMap(const Segment& segment) const;
   int SegmentsToKeep() const;

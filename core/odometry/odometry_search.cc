@@ -118,9 +118,11 @@ void Odometry::Resume(const ReturnSweep& sweep) {
   if (sweep.cloud.end_ns > sweep.cloud.begin_ns) {
     window_.begin_velocity = sweep.tau / sweep.cloud.Duration_s();
   } else {
-    const LastSeen& last = search_->last();
-    window_.begin_velocity = Minus(T_world_begin, last.T_world_body) /
-                             Seconds(sweep.cloud.begin_ns - last.supported_until_ns);
+    // The mean velocity since the points held the body: all of that is settled by now.
+    const std::int64_t seen_ns = search_->last().supported_until_ns;
+    const SE3 T_world_seen = trajectory_.At(seen_ns).value_or(T_world_begin);
+    window_.begin_velocity =
+        Minus(T_world_begin, T_world_seen) / Seconds(sweep.cloud.begin_ns - seen_ns);
     EnterMap(sweep.cloud, T_world_begin, T_world_begin, &threads_, &map_);
     segments.clear();
   }

@@ -195,17 +195,18 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
   const FirstInterval interval(cloud, map_options, registration, threads);
   if (interval.is_empty()) return motion;
   motion.tau = interval.Refine(Vector6d::Zero(), 0, kRounds);
-  motion.agreeing_at_rest = interval.At(Vector6d::Zero()).Agreeing();
   const auto direction = interval.WeakDirection(motion.tau);
   const bool is_at_rest = motion.tau.head<3>().norm() < kAtRest_m;
-  if (direction && !(is_at_rest && interval.IsShownAlong(*direction, motion.tau))) {
-    motion.tau = SearchAlong(*direction, interval, motion.tau, threads);
-    motion.votes = interval.VotesAlong(*direction, motion.tau);
-    motion.votes_at_rest = interval.VotesAlong(*direction, Vector6d::Zero());
-  }
-  const MotionHypothesis found = interval.At(motion.tau);
-  motion.agreeing = found.Agreeing();
-  motion.with_plane = found.WithPlane();
+  const bool is_searched =
+      direction && !(is_at_rest && interval.IsShownAlong(*direction, motion.tau));
+  if (is_searched) motion.tau = SearchAlong(*direction, interval, motion.tau, threads);
+  const auto evidence_for = [&](const Vector6d& tau) {
+    const MotionHypothesis hypothesis = interval.At(tau);
+    return MotionEvidence{hypothesis.Agreeing(), hypothesis.WithPlane(),
+                          is_searched ? interval.VotesAlong(*direction, tau) : 0};
+  };
+  motion.found = evidence_for(motion.tau);
+  motion.at_rest = evidence_for(Vector6d::Zero());
   return motion;
 }
 
@@ -215,15 +216,18 @@ FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const Initializatio
   const double duration_s = cloud.Duration_s();
   if (!options.estimate_motion || !(duration_s > 0.0)) return {};
   const InitialMotion motion = EstimateInitialMotion(cloud, map_options, registration, threads);
+  const MotionEvidence &found = motion.found, &at_rest = motion.at_rest;
   const double way_m = motion.tau.head<3>().norm();
-  const bool hardly_moves = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
-  const bool is_steady = hardly_moves || motion.agreeing > kSteady * motion.with_plane;
   const double gain = way_m > kClearMotion_m ? 1.0 : kMinGain;
   const bool is_believed =
-      way_m < kFastest_m_s * duration_s && (motion.agreeing > gain * motion.agreeing_at_rest ||
-                                            motion.votes > gain * motion.votes_at_rest);
-  if (!is_believed) return {Vector6d::Zero(), is_steady};
-  return {motion.tau / duration_s, is_steady};
+      way_m < kFastest_m_s * duration_s &&
+      (found.agreeing > gain * at_rest.agreeing || found.votes > gain * at_rest.votes);
+  const bool hardly_moves = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
+  const MotionEvidence& taken = is_believed ? found : at_rest;
+  FirstMotion first;
+  first.is_steady = hardly_moves || taken.agreeing > kSteady * taken.with_plane;
+  if (is_believed) first.velocity = motion.tau / duration_s;
+  return first;
 }
 
 }  // namespace trajlo

@@ -9,19 +9,20 @@
 
 namespace trajlo {
 
-struct InitialMotion {
-  /// The body's twist over the whole first interval: T(alpha) = Exp(alpha tau).
-  Vector6d tau = Vector6d::Zero();
-  /// How many points of the second half lie on planes of the first half under tau, and under the
-  /// hypothesis that the sensor stood still.
-  int agreeing = 0;
-  int agreeing_at_rest = 0;
-  /// How many have a plane under tau.
-  int with_plane = 0;
+/// What the points of the second half say of a motion over the interval.
+struct MotionEvidence {
+  int agreeing = 0;    ///< So many lie on planes of the first half, ...
+  int with_plane = 0;  ///< ... of so many that have one.
   /// See MotionHypothesis::VotesAlong: of planes that face the direction which is held weakly, if
   /// one is. Of the others, many agree with any motion along it.
   int votes = 0;
-  int votes_at_rest = 0;
+};
+
+struct InitialMotion {
+  /// The body's twist over the whole first interval: T(alpha) = Exp(alpha tau).
+  Vector6d tau = Vector6d::Zero();
+  MotionEvidence found;    ///< For tau.
+  MotionEvidence at_rest;  ///< For a sensor that stood still.
 };
 
 /// Finds how the sensor moved during the first interval from nothing but the interval itself: the
@@ -52,7 +53,8 @@ struct InitializationOptions {
 struct FirstMotion {
   Vector6d velocity = Vector6d::Zero();  ///< [rho; theta] per second, body frame.
   /// Whether it explains the whole interval: the body hardly moves, or the two halves of the
-  /// interval agree under it. Else the body accelerates or turns to and fro.
+  /// interval agree under it. Else the body accelerates or turns to and fro, or nobody knows how it
+  /// moves.
   bool is_steady = true;
 };
 

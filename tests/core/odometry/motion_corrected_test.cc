@@ -90,5 +90,27 @@ TEST(Odometry, MotionCorrectedScansMayStartInFastMotionWithoutTheSecondOne) {
   EXPECT_GT(ErrorOfMotionCorrectedStart(20.0, false), 1.0) << "the scene would not need it";
 }
 
+TEST(Odometry, MotionCorrectedScansGoOnAsFastAsBeforeBehindACover) {
+  SyntheticWorld world = Street();
+  world.T_world_body = [](double t) {
+    return SE3(Eigen::Quaterniond::Identity(), {5.0 * t, 0.0, 0.0});
+  };
+  const RunResult run = RunOn(world, RoomOptions(), 35, [&](int i, LidarScan* scan) {
+    CorrectMotion(world, scan);
+    const bool is_covered = 10 <= i && i < 20;
+    if (!is_covered) return;
+    for (LidarPoint& point : scan->points) point.xyz_m *= 0.6F / point.xyz_m.norm();
+  });
+  const std::int64_t seen_again_ns = world.start_ns + 2'000'000'000;
+  const auto first = std::find_if(
+      run.windows.begin(), run.windows.end(),
+      [&](const WindowStatistics& window) { return window.begin_ns >= seen_again_ns; });
+  ASSERT_NE(first, run.windows.end());
+  EXPECT_LT(first->correction.translation_m, 0.05) << "0.5 m a scan were foreseen";
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 0.9), 0.1);
+  const ControlPose& last = run.odometry->trajectory().poses().back();
+  EXPECT_NEAR(last.T_world_body.t.x(), 5.0 * 3.4, 0.2);
+}
+
 }  // namespace
 }  // namespace trajlo::testing

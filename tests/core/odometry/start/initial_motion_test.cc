@@ -52,7 +52,7 @@ TEST(InitialMotion, FindsAConstantTwist) {
     const InitialMotion motion = Estimate(FirstInterval(twist));
     EXPECT_LT((motion.tau - kInterval_s * twist).head<3>().norm(), 0.05) << forward_m_s;
     EXPECT_LT((motion.tau - kInterval_s * twist).tail<3>().norm(), 0.01) << yaw_rad_s;
-    EXPECT_GT(motion.agreeing, motion.agreeing_at_rest);
+    EXPECT_GT(motion.found.agreeing, motion.at_rest.agreeing);
   }
 }
 
