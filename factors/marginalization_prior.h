@@ -27,8 +27,6 @@ struct MarginalizationPrior {
   bool first_estimate_jacobians = false;
 
   int poses() const { return static_cast<int>(linearization_points.size()); }
-  Eigen::MatrixXd Information() const;
-  Eigen::VectorXd Gradient() const;
 
   /// `s` has at least poses() poses. The Jacobian is with respect to their right perturbations.
   Eigen::VectorXd Residual(const std::vector<SE3>& s) const;

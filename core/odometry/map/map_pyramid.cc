@@ -140,20 +140,13 @@ void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane*
     if (!query.plane.exists()) continue;
     plane.normal_world = query.plane.normal_world.cast<double>();
     plane.offset_m = plane.normal_world.dot(query.center_world) + query.plane.offset_m;
-    plane.scale = std::ldexp(1.0, query.level);
     plane.normal_variance_rad2 = query.is_grazed ? std::numeric_limits<double>::infinity()
                                                  : query.plane.normal_variance_rad2;
     const double relative = query.plane.thickness_m / PlaneFitOptions::kHalfWeightThickness_m;
-    plane.coarseness = query.is_wide ? 1.0 : plane.scale;
+    plane.coarseness = query.is_wide ? 1.0 : std::ldexp(1.0, query.level);
     const double squared = plane.coarseness * plane.coarseness;
     plane.weight = 1.0 / ((1.0 + relative * relative) * squared * squared);
   }
-}
-
-Plane MapPyramid::FindPlane(const PlaneQuery& query) const {
-  Plane plane;
-  FindPlanes(&query, 1, &plane);
-  return plane;
 }
 
 }  // namespace trajlo

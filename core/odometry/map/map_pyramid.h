@@ -35,10 +35,9 @@ struct Plane {
   double offset_m;
   /// Relative information of a distance to it, in (0, 1]; zero says that there is no plane.
   double weight = 0.0;
-  /// Voxels of the level it comes from, in those of the finest.
-  double scale = 1.0;
-  /// The same, but 1 for a wide and thin plane. The weight is divided by its fourth power: a
-  /// surface that is not flat leaves its plane by the square of the plane's size.
+  /// The voxel size of its level as a multiple of the finest; 1 for a wide and thin plane. The
+  /// weight is divided by its fourth power: a surface that is not flat departs from its plane by
+  /// the square of the plane's size.
   double coarseness = 1.0;
   /// See FittedPlane; infinite where the ray merely grazes the plane, which may be no surface.
   double normal_variance_rad2 = 0.0;
@@ -90,7 +89,6 @@ class MapPyramid {
   /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
   /// taken only where there is no other. The weight of one falls with its coarseness.
   void FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const;
-  Plane FindPlane(const PlaneQuery& query) const;
 
   const VoxelHashMap& finest() const { return levels_.front().points(); }
 

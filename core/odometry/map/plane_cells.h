@@ -19,8 +19,6 @@ namespace trajlo {
 /// claims the cell; another that finds it claimed fits for itself.
 class PlaneCells {
  public:
-  static constexpr std::uint32_t kPerSite = 8;
-
   /// For sites with numbers below `sites`. Not beside Get().
   void Resize(std::size_t sites) {
     constexpr std::size_t kSites = std::size_t{1} << kSitesPerBlockLog2;
@@ -60,6 +58,8 @@ class PlaneCells {
   }
 
  private:
+  static constexpr std::uint32_t kPerSite = 8;
+  static constexpr std::uint32_t kSitesPerBlockLog2 = 13;
   static constexpr std::uint32_t kNever = 0;
   static constexpr std::uint32_t kClaimed = ~std::uint32_t{0};
 
@@ -77,8 +77,6 @@ class PlaneCells {
     return fitted_at != kNever && fitted_at <= points_around &&
            points_around - fitted_at <= fitted_at / 8 + 1;
   }
-
-  static constexpr std::uint32_t kSitesPerBlockLog2 = 13;
 
   Cell& At(std::uint32_t site, std::uint32_t cell) const {
     constexpr std::uint32_t kLast = (std::uint32_t{1} << kSitesPerBlockLog2) - 1;

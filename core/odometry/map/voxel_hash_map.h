@@ -44,8 +44,6 @@ class VoxelHashMap {
   /// The `k` nearest points, 1 to kMaxNeighbors, of the seven voxels around `query_world`.
   void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const;
 
-  VoxelKey KeyOf(const Eigen::Vector3d& p) const { return VoxelAt(p, inverse_size_); }
-  Eigen::Vector3d CornerOf(const VoxelKey& key) const { return voxel_size_ * key.cast<double>(); }
   const VoxelIndex& index() const { return index_; }
   /// All numbers of sites are smaller.
   std::size_t site_capacity() const { return site_count_; }
@@ -69,6 +67,8 @@ class VoxelHashMap {
   static_assert(sizeof(Block) == 64);
   struct Candidates;
 
+  VoxelKey KeyOf(const Eigen::Vector3d& p) const { return VoxelAt(p, inverse_size_); }
+  Eigen::Vector3d CornerOf(const VoxelKey& key) const { return voxel_size_ * key.cast<double>(); }
   /// Whether a voxel, given by its first block, is not full and has no point that is too near.
   bool HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) const;
   void Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p);

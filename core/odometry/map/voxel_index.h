@@ -76,8 +76,6 @@ class VoxelIndex {
   /// Brings an entry into the cache.
   void Prefetch(Slot slot) const { __builtin_prefetch(&(*this)[slot]); }
 
-  std::size_t bricks() const { return size_; }
-
  private:
   static constexpr std::uint32_t kVoxels = 64;
   static constexpr std::uint32_t kNoBrick = kNoSlot / kVoxels;
@@ -128,7 +126,7 @@ class VoxelIndex {
   std::vector<Brick, HugePageAllocator<Brick>> bricks_;
   std::vector<std::uint32_t> free_bricks_;
   std::vector<Place> table_;  ///< A power of two of them, at most half full.
-  std::size_t size_ = 0;
+  std::size_t size_ = 0;      ///< Bricks in the table.
 };
 
 }  // namespace trajlo
