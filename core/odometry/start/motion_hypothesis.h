@@ -23,7 +23,7 @@ class MotionHypothesis {
                    const MapPyramidOptions& map_options, ThreadPool* threads);
 
   RegistrationNormalEquations Linearize(const RegistrationNoise& noise) const;
-  /// The same, where planes that do not face `direction` (a unit vector in the world) say nothing
+  /// The same, but planes that do not face `direction` (a unit vector in the world) say nothing
   /// about the way along it. A road has thousands of points, and the noise of their normals holds a
   /// speed that the few points which face the way would correct.
   RegistrationNormalEquations LinearizeAlong(const Eigen::Vector3d& direction,
@@ -38,16 +38,16 @@ class MotionHypothesis {
   /// others say.
   int AgreeingAlong(const Eigen::Vector3d& direction) const;
   int FacingAlong(const Eigen::Vector3d& direction) const;
-  /// Of `second_half` (the one that was given at first), what may tell how far one has moved along
-  /// `direction`: all points but those of planes that do not face it. Of these it has a few, which
-  /// hold the rest of the motion.
+  /// The points of `second_half` (the one that the constructor was given) that may tell how far one
+  /// has moved along `direction`: all but those on planes that do not face it. A few of these
+  /// remain to hold the rest of the motion.
   std::vector<SegmentPoint> TellingAlong(const Eigen::Vector3d& direction,
                                          const std::vector<SegmentPoint>& second_half) const;
 
   /// How many of AgreeingAlong() count by themselves. No moment and no place (a cube of `place_m`)
   /// has more than a few: its points share an error, or are one thing. Where a scanner bounces, the
-  /// rings of two sweeps stand above each other behind it, and seem to be a wall that goes along. A
-  /// car may go along, too.
+  /// rings of two sweeps stand above each other behind it, and look like a wall that moves along.
+  /// So may a car.
   int VotesAlong(const Eigen::Vector3d& direction, double place_m) const;
 
  private:
