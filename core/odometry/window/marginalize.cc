@@ -32,9 +32,7 @@ void Untie(const Vector6d& velocity_before, Segment* segment) {
 MarginalizationPrior PriorWithoutFirstPose(const Window& window,
                                            const MarginalizationOptions& options) {
   const std::vector<SE3> poses = window.Poses();
-  if (!options.enabled) {
-    return AnchorOf(poses[1]);
-  }
+  if (!options.enabled) return AnchorOf(poses[1]);
   const int touched = TouchedPoses(window);
   WindowNormalEquations terms;
   terms.SetZero(touched);
