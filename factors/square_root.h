@@ -10,8 +10,8 @@
 
 namespace trajlo {
 
-/// N is a size or Eigen::Dynamic. A quadratic ½ xᵀH x + gᵀx written as ½ |S x + s|² - ½ |s|²: SᵀS =
-/// H and Sᵀs = g.
+/// A quadratic ½ xᵀH x + gᵀx written as ½ |S x + s|² - ½ |s|²: SᵀS = H and Sᵀs = g. N is a size or
+/// Eigen::Dynamic.
 template <int N>
 struct SquareRoot {
   Eigen::Matrix<double, N, N> S;

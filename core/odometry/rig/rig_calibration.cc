@@ -61,8 +61,7 @@ std::vector<std::vector<RegistrationPoint>> PointsByLidar(
     const std::vector<RegistrationPoint>& points, std::size_t lidars, std::size_t reference) {
   std::vector<std::vector<RegistrationPoint>> by_lidar(lidars);
   for (const RegistrationPoint& point : points) {
-    const auto lidar = static_cast<std::size_t>(point.lidar);
-    if (lidar != reference) by_lidar[lidar].push_back(point);
+    if (point.lidar != reference) by_lidar[point.lidar].push_back(point);
   }
   return by_lidar;
 }

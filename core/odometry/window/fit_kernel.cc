@@ -16,9 +16,9 @@ namespace {
 
 /// A smaller change is not worth a new linearisation of all segments.
 constexpr double kSmallChange = 0.1;
-/// The axes stay while one of them has no more information than so many times the least.
+/// The axes stay while one of them has no more information than this multiple of the least.
 constexpr double kNearlyLeast = 1.25;
-/// About so many points are asked: of a segment, for the axes; of an axis, for its width.
+/// About this many points are asked: of a segment, for the axes; of an axis, for its width.
 constexpr std::size_t kAskedOfSegment = 128;
 constexpr std::size_t kAskedOfAxis = 128;
 /// Fewer points have no scatter.
@@ -62,9 +62,7 @@ using WeighedDistance = std::pair<double, double>;
 std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window) {
   std::array<std::size_t, 3> stride = {};
   for (const Segment& segment : window.segments) {
-    for (const RegistrationPoint& point : segment.points) {
-      ++stride[static_cast<std::size_t>(point.axis)];
-    }
+    for (const RegistrationPoint& point : segment.points) ++stride[point.axis];
   }
   for (std::size_t& count : stride) count = 1 + count / kAskedOfAxis;
   std::array<std::size_t, 3> to_pass = {};
@@ -73,11 +71,12 @@ std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window
     const Segment& segment = window.At(k);
     const SegmentMotion motion(window.Pose(k), segment.T_world_end);
     for (const RegistrationPoint& point : segment.points) {
-      const auto axis = static_cast<std::size_t>(point.axis);
-      if (to_pass[axis]-- > 0) continue;
-      to_pass[axis] = stride[axis] - 1;
+      std::size_t& passes = to_pass[point.axis];
+      if (passes-- > 0) continue;
+      passes = stride[point.axis] - 1;
       const double distance_m = point.DistanceToPlane(motion.ToWorld(point.alpha, point.p_body_m));
-      distances[axis].emplace_back(std::sqrt(point.weight) * std::abs(distance_m), point.weight);
+      distances[point.axis].emplace_back(std::sqrt(point.weight) * std::abs(distance_m),
+                                         point.weight);
     }
   }
   return distances;
