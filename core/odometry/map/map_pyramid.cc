@@ -53,8 +53,9 @@ struct MapPyramid::Batch {
 };
 
 MapPyramid::MapPyramid(const MapPyramidOptions& options) : plane_(options.plane) {
-  if (options.levels < 1 || options.levels > kMaxLevels) {
-    throw std::invalid_argument("a map pyramid has 1 to " + std::to_string(kMaxLevels) + " levels");
+  if (options.levels < 1 || options.levels > MapPyramidOptions::kMaxLevels) {
+    throw std::invalid_argument("a map pyramid has 1 to " +
+                                std::to_string(MapPyramidOptions::kMaxLevels) + " levels");
   }
   MapOptions level = options.finest;
   for (int i = 0; i < options.levels; ++i) {

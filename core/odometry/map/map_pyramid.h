@@ -14,11 +14,12 @@ struct MapPyramidOptions {
   MapOptions finest;
   PlaneFitOptions plane;
   int levels = 4;
+  static constexpr int kMaxLevels = 8;
 
   template <typename Describer>
   void Describe(Describer& d) {
     finest.Describe(d);
-    d(OptionFor::kExperts, "levels", levels, Range<int>{1, 8},
+    d(OptionFor::kExperts, "levels", levels, Range<int>{1, kMaxLevels},
       "Maps of growing coarseness, each with voxels and spacing twice those of the one before.");
   }
 };
@@ -52,16 +53,15 @@ struct Plane {
 /// just entered) the next coarser one, whose voxels reach farther.
 ///
 /// But a finer plane is taken only if it is thinner. The shape of a surface makes planes the
-/// thinner, the smaller they are; noise does not. Of points that scatter as far as a voxel, every
-/// place has a plane of its own, which passes where one asks: they would hold the sensor where it
-/// is.
+/// thinner, the smaller they are; noise does not. Where points scatter as far as a voxel, every
+/// place has a plane of its own, which passes through wherever one asks: such planes would hold the
+/// sensor where it is.
 class MapPyramid {
  public:
-  static constexpr int kMaxLevels = 8;
   /// The most queries at a time.
   static constexpr std::size_t kMaxBatch = 64;
 
-  /// Throws std::invalid_argument unless there are 1 to kMaxLevels levels.
+  /// Throws std::invalid_argument unless there are 1 to MapPyramidOptions::kMaxLevels levels.
   explicit MapPyramid(const MapPyramidOptions& options);
 
   void Insert(const std::vector<Eigen::Vector3d>& points_world);
@@ -87,7 +87,7 @@ class MapPyramid {
   /// Another number after each insertion.
   std::int64_t version() const { return version_; }
   /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
-  /// taken only where there is no other. The weight of one falls with its coarseness.
+  /// taken only where there is no other.
   void FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const;
 
   const VoxelHashMap& finest() const { return levels_.front().points(); }

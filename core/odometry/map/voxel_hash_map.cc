@@ -187,8 +187,8 @@ void VoxelHashMap::DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* ch
 
 void VoxelHashMap::RemoveFar(const Eigen::Vector3d& center_world,
                              std::vector<std::uint32_t>* changed) {
-  // Removal visits every voxel; doing it only every so often changes nothing that queries can see
-  // but the rim of the map.
+  // Removal visits every voxel. Queries can only tell at the rim of the map that it is done from
+  // time to time.
   const double slack = 0.05 * radius_;
   if (last_removal_center_ && (center_world - *last_removal_center_).norm() < slack) return;
   last_removal_center_ = center_world;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kSumMemory_s = 0.1;
 /// T_l: in which the densities follow.
 constexpr double kLearning_s = 0.3;
-/// The largest step up, in units of what a rest makes a step down.
+/// The largest step up, as a multiple of a step down at rest.
 constexpr double kLargestScore = 8.0;
 /// The noise of the points is taken to be as small as this share of what is assumed, in squares.
 constexpr double kLeastScatter = 0.2;

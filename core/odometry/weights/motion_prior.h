@@ -83,7 +83,7 @@ class MotionPrior {
 
   /// Ties the velocities of the segments by the present densities.
   void Apply(Window* window) const { Apply(density_, window); }
-  /// The same, but of rotation hardly anything is foretold.
+  /// The same, but leaves rotation almost free.
   void UntieRotation(Window* window) const;
 
   /// Takes the newest innovation of a window that is believed; `duration_s` is that of the newest
@@ -91,7 +91,7 @@ class MotionPrior {
   void Learn(const Innovation& innovation, double duration_s);
 
   /// Takes an innovation that the densities say cannot be, and the points say is: raises them until
-  /// they foretell as much, the likeliest value by this innovation alone.
+  /// they would have predicted as much, the likeliest value by this innovation alone.
   void Follow(const Innovation& innovation);
 
  private:

@@ -27,8 +27,8 @@ struct SpuriousInformation {
   double sum = 0.0;
   double sum_of_squares = 0.0;
 
-  /// What points tell where v_i is infinite, sum w_i j_i j_iᵀ: all of it may be spurious. One scan
-  /// line round a corner makes a perfect plane, which is no surface.
+  /// What the points with an infinite v_i tell, sum w_i j_i j_iᵀ: all of it may be spurious. One
+  /// scan line round a corner makes a perfect plane, which is no surface.
   Matrix6d no_surface = Matrix6d::Zero();
   /// What the others tell, dealt into groups by where they lie: points of one place, which share
   /// planes, are always in the same group. See ConditionOf.

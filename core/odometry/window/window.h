@@ -31,7 +31,7 @@ struct Segment {
   MotionTerm motion;
   /// The registration around the present poses: to first order in the last step.
   RegistrationNormalEquations registration;
-  /// What `registration` comes from; nothing where `points` are others now.
+  /// What `registration` comes from; empty once `points` have changed.
   std::optional<LinearizedRegistration> linearization;
   /// The part of the information of the registration that comes from the noise of normals.
   SpuriousInformation spurious;
