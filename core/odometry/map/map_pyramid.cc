@@ -67,7 +67,8 @@ MapPyramid::MapPyramid(const MapPyramidOptions& options) : plane_(options.plane)
 
 void MapPyramid::Insert(const std::vector<Eigen::Vector3d>& points_world) {
   ++version_;
-  // What a level has no use for, because it has points there, is hardly of use for coarser ones.
+  // Points that a level has no use for, because it has others there, are hardly of use to coarser
+  // ones.
   std::vector<Eigen::Vector3d> offered = points_world;
   for (MapLevel& level : levels_) offered = level.Insert(offered);
 }

@@ -80,7 +80,7 @@ class MapPyramid {
   VoxelKey CellOf(const Eigen::Vector3d& place_world) const {
     return levels_.front().CellOf(place_world);
   }
-  /// Whether a place is in a cell of the finest level, or hardly outside.
+  /// Whether a place is in a cell of the finest level, or just outside it.
   bool IsAround(const Eigen::Vector3d& place_world, const VoxelKey& cell) const {
     return levels_.front().IsAround(place_world, cell);
   }

@@ -9,6 +9,10 @@
 namespace trajlo {
 namespace {
 
+/// Points are inserted and checked in batches. Each of these goes in steps, which fetch ahead what
+/// the next one reads.
+constexpr std::size_t kBatch = 32;
+
 /// From a voxel to those that share a face with it.
 const VoxelKey kFaces[6] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
 
@@ -95,8 +99,6 @@ void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
 std::vector<Eigen::Vector3d> VoxelHashMap::Insert(
     const std::vector<Eigen::Vector3d>& points_world) {
   std::vector<Eigen::Vector3d> accepted;
-  // In steps, each of which fetches ahead what the next one reads.
-  constexpr std::size_t kBatch = 32;
   std::array<VoxelKey, kBatch> keys;
   std::array<std::array<VoxelIndex::Slot, 7>, kBatch> around;
   for (std::size_t first = 0; first < points_world.size(); first += kBatch) {
@@ -133,7 +135,6 @@ std::vector<Eigen::Vector3d> VoxelHashMap::Insert(
 }
 
 void VoxelHashMap::DropRefused(std::vector<Eigen::Vector3d>* points_world) const {
-  constexpr std::size_t kBatch = 32;
   std::array<VoxelKey, kBatch> keys;
   std::array<VoxelIndex::Slot, kBatch> slots;
   std::size_t kept = 0;

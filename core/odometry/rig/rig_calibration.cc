@@ -15,8 +15,8 @@ constexpr double kPriorSigma_m = 0.03;
 constexpr double kPriorSigma_rad = 0.02;
 constexpr double kPriorSigma_s = 0.01;
 constexpr double kMemory_s = 10.0;
-/// Planes are seen from another place when the body has moved by as much, or has turned such that
-/// a point at this distance has.
+/// Planes are seen from another place when the body has moved this far, or has turned so far that a
+/// point at the end of this lever has.
 constexpr double kPlace_m = 0.25;
 constexpr double kLeverArm_m = 5.0;
 /// A LiDAR is known when it has seen the map from this many places: after 2.5 m, or half a radian.

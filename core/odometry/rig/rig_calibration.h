@@ -27,7 +27,7 @@ namespace trajlo {
 ///
 ///   S_lm = Bᵀ([l = m] A_l - A_l A⁻¹ A_m) B,   s_l = Bᵀ(g_l - A_l A⁻¹ g),
 ///
-/// where A and g are the sums over all LiDARs. S and s are what the LiDARs tell about each other,
+/// where A and g are the sums over all LiDARs. S and s are what the LiDARs say about each other,
 /// whatever the pose is. They are summed over the segments that leave the window, with a memory, on
 /// a prior around what was given.
 ///

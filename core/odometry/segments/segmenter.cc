@@ -167,7 +167,7 @@ Segmenter::Slot* Segmenter::DiscreteSlotAt(std::int64_t stamp_ns) {
     if (slot.end_ns <= complete_until_ns_ || slot.is_gap) return nullptr;
     if (std::abs(stamp_ns - slot.end_ns) < kShortest_ns) return &slot;
     if (stamp_ns < slot.begin_ns + kShortest_ns) continue;
-    // Of another LiDAR, between two scans that came before.
+    // From another LiDAR, between two earlier scans.
     const auto before = slots_.insert(slots_.begin() + static_cast<std::ptrdiff_t>(i),
                                       {slot.begin_ns, stamp_ns, false, {}, {}});
     slots_[i + 1].begin_ns = stamp_ns;

@@ -41,8 +41,8 @@ constexpr double kDisagreement_m = 0.3;
 constexpr double kMinAgreement = 0.5;
 /// ... and of those that have a plane, near or far, ...
 constexpr double kMinPrecision = 0.6;
-/// ... so many times the points that a rival has, of those that only one of them has, which must be
-/// more than a few, ...
+/// ... this many times the points of a rival, among those that speak for one of the two alone, and
+/// this share of all points, ...
 constexpr double kMinRatio = 2.0;
 constexpr double kMinDisputed = 0.03;
 /// ... and in every direction this share of the information about translation.
@@ -154,7 +154,7 @@ class Hypothesis {
     }
   }
 
-  /// One step of Gauss-Newton, of the sweep as a whole or of its begin and its end.
+  /// One step of Gauss-Newton, of the sweep as a whole or of its start and its end.
   bool Step(bool is_rigid, const RegistrationNoise& noise) {
     const RegistrationNormalEquations equations =
         LinearizeSegment(points_, T_begin_, T_end(), noise);
@@ -216,7 +216,7 @@ std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d&
   SegmentCloud thin;
   thin.lidar_origins_body_m = sweep.lidar_origins_body_m;
   thin.registration_points = ChooseEvenly(sweep.registration_points, kMaxPoints);
-  // In the body frame at the begin.
+  // In the body frame at the start.
   const std::vector<Eigen::Vector3d> rigid =
       PointsToWorld({SE3(), se3::Exp(tau)}, thin.registration_points);
   std::vector<Hypothesis> all;

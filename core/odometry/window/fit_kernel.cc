@@ -25,7 +25,7 @@ constexpr std::size_t kAskedOfAxis = 128;
 constexpr std::size_t kFewest = 5;
 constexpr double kWidestInKernels = 3.0;
 
-/// Of some points: sum w n nᵀ.
+/// sum w n nᵀ, over some of the points.
 Eigen::Matrix3d InformationOfNormals(const Window& window) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Segment& segment : window.segments) {
@@ -42,8 +42,8 @@ void ForgetLinearizations(Window* window) {
   for (Segment& segment : window->segments) segment.linearization.reset();
 }
 
-/// Turns the axes to the principal ones, if the direction with the least information is not among
-/// them any more.
+/// Turns the axes to the principal ones, if the direction with the least information is no longer
+/// among them.
 void UpdateAxes(Window* window) {
   const Eigen::Matrix3d information = InformationOfNormals(*window);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
@@ -58,7 +58,7 @@ void UpdateAxes(Window* window) {
 /// A distance in the units of the kernel, and the weight with which it counts.
 using WeighedDistance = std::pair<double, double>;
 
-/// Of some points of each axis.
+/// Those of some points of each axis.
 std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window) {
   std::array<std::size_t, 3> stride = {};
   for (const Segment& segment : window.segments) {

@@ -8,7 +8,7 @@
 namespace trajlo {
 namespace {
 
-/// How well the velocity at the begin of a window is known. It holds only the first segment.
+/// How well the velocity at the start of a window is known. It holds only the first segment.
 constexpr double kBeginVelocitySigma_m_s = 3.0;
 constexpr double kBeginVelocitySigma_rad_s = 3.0;
 

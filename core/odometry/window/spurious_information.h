@@ -13,7 +13,7 @@ namespace trajlo {
 ///
 /// A wall along x tells nothing about x: every normal is perpendicular to it. But the normals come
 /// from a few map points each. One that is tilted by e has the component e along x, and the point
-/// seems to hold x with information w e². In the mean over noise that is
+/// seems to hold x with information w e². On average over the noise, that is
 ///
 ///   F = sum_i w_i G_i Cov(n_i) G_iᵀ,   G_i = [I; [x_i]x],   Cov(n_i) = v_i (I - n_i n_iᵀ),
 ///
@@ -21,7 +21,7 @@ namespace trajlo {
 /// Jacobian and v_i the variance of its normal. H - F is what the true planes would have given. It
 /// is computed when a segment is the newest, and kept.
 struct SpuriousInformation {
-  /// F for a rigid perturbation [rho; theta] of the body frame at the begin of the segment.
+  /// F for a rigid perturbation [rho; theta] of the body frame at the start of the segment.
   Matrix6d mean = Matrix6d::Zero();
   /// Sums of w_i v_i and of (w_i v_i)²: how many normals are independent, see ConditionOf.
   double sum = 0.0;
