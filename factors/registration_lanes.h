@@ -43,9 +43,6 @@ struct GatheredPoints {
   Lane4 alpha, offset, weight;
   LaneAxes axis;
 
-  explicit GatheredPoints(const RegistrationPoint* first, std::size_t stride = 1)
-      : GatheredPoints(first[0], first[stride], first[2 * stride], first[3 * stride]) {}
-
   GatheredPoints(const RegistrationPoint& p0, const RegistrationPoint& p1,
                  const RegistrationPoint& p2, const RegistrationPoint& p3)
       : p{LoadFour(p0, 0), LoadFour(p1, 0), LoadFour(p2, 0)},
@@ -63,13 +60,12 @@ struct GatheredPoints {
 /// weight.
 inline GatheredPoints Gather(const RegistrationPoint* points, std::size_t count,
                              std::size_t stride = 1) {
-  if (count >= kLanes) return GatheredPoints(points, stride);
-  RegistrationPoint filled[kLanes];
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    filled[i] = points[stride * std::min(i, count - 1)];
-    if (i >= count) filled[i].weight = 0.0;
-  }
-  return GatheredPoints(filled);
+  const auto point = [&](std::size_t i) -> const RegistrationPoint& {
+    return points[stride * std::min(i, count - 1)];
+  };
+  GatheredPoints gathered(point(0), point(1), point(2), point(3));
+  for (std::size_t i = count; i < kLanes; ++i) gathered.weight[i] = 0.0;
+  return gathered;
 }
 
 /// The kernels of the three axes.
