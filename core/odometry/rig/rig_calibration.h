@@ -14,8 +14,8 @@ namespace trajlo {
 
 /// Where the LiDARs of a rig really are, and what their clocks really show, found while running.
 ///
-/// Poses that were calibrated, or read from a drawing, are off by a centimetre and some tenths of a
-/// degree, and clocks by some milliseconds. Points of two LiDARs then make two walls of one, and
+/// Poses that were calibrated, or read from a drawing, are off by a centimetre and a few tenths of
+/// a degree, and clocks by a few milliseconds. Points of two LiDARs then make two walls of one, and
 /// the map agrees with both. So the points of LiDAR l are moved by a correction in the body frame,
 /// p_body = C_l T_body_lidar p_lidar, and in time, t + c_l. One LiDAR is the reference, which has
 /// none: the first that sees at least half as much as any other when the recording begins.

@@ -15,8 +15,8 @@ namespace trajlo {
 /// with it, and planes of that map for the points of its second half.
 class MotionHypothesis {
  public:
-  /// `tau` is the body's twist over the whole interval. The map is of `map_points`: the first half,
-  /// or the whole interval to know its surfaces.
+  /// `tau` is the body's twist over the whole interval. The map is made of `map_points`: the first
+  /// half, or the whole interval to know its surfaces.
   MotionHypothesis(const std::vector<SegmentPoint>& map_points,
                    const std::vector<SegmentPoint>& second_half,
                    const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const Vector6d& tau,
@@ -44,7 +44,7 @@ class MotionHypothesis {
   std::vector<SegmentPoint> TellingAlong(const Eigen::Vector3d& direction,
                                          const std::vector<SegmentPoint>& second_half) const;
 
-  /// How many of AgreeingAlong() count by themselves. No moment and no place (a cube of `place_m`)
+  /// How many of AgreeingAlong() count as independent. No moment and no place (a cube of `place_m`)
   /// has more than a few: its points share an error, or are one thing. Where a scanner bounces, the
   /// rings of two sweeps stand above each other behind it, and look like a wall that moves along.
   /// So may a car.

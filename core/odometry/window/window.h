@@ -57,7 +57,7 @@ struct Window {
   /// Velocity at the start of a window that has no segments yet, [rho; theta] per second, body
   /// frame.
   Vector6d begin_velocity = Vector6d::Zero();
-  /// False: the last solve was no success, and the poses are predictions.
+  /// False: the last solve failed, and the poses are predictions.
   bool is_believed = true;
 
   int size() const { return static_cast<int>(segments.size()); }
