@@ -35,13 +35,11 @@ std::size_t GroupOf(const Eigen::Vector3d& x_world) {
 /// Four points, with a vector of lanes for each.
 struct PointVectors {
   Lane4 y[kLanes];                            ///< [p0; 1]
-  Lane4 j_head[kLanes], j_tail[kLanes];       ///< j = [n0; p0 x n0], of six
+  Lane4 j_head[kLanes], j_tail[kLanes] = {};  ///< j = [n0; p0 x n0], of six
   std::array<Eigen::Vector3d, kLanes> world;  ///< Their places.
 
   PointVectors(const LocatedPoints& at, const SegmentMotion& motion)
-      : y{at.p0.x, at.p0.y, at.p0.z, Broadcast<Lane4>(1.0)},
-        j_head{at.n0.x, at.n0.y, at.n0.z},
-        j_tail{} {
+      : y{at.p0.x, at.p0.y, at.p0.z, Broadcast<Lane4>(1.0)}, j_head{at.n0.x, at.n0.y, at.n0.z} {
     const Vector3<Lane4> moment = lanes::Cross(at.p0, at.n0);
     j_head[3] = moment.x;
     j_tail[0] = moment.y;
