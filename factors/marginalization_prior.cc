@@ -17,14 +17,6 @@ Vector6d Difference(const MarginalizationPrior& prior, const std::vector<SE3>& s
 
 }  // namespace
 
-Eigen::MatrixXd MarginalizationPrior::Information() const {
-  return sqrt_information.transpose() * sqrt_information;
-}
-
-Eigen::VectorXd MarginalizationPrior::Gradient() const {
-  return sqrt_information.transpose() * offset;
-}
-
 Eigen::VectorXd MarginalizationPrior::Residual(const std::vector<SE3>& s) const {
   Eigen::VectorXd r = offset;
   for (int i = 0; i < poses(); ++i) {

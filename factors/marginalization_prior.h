@@ -22,13 +22,11 @@ struct MarginalizationPrior {
   Eigen::MatrixXd sqrt_information;       ///< S, 6n x 6n.
   Eigen::VectorXd offset;                 ///< r0
   /// Off: the Jacobian is the derivative of the residual, S Jr⁻¹(d). On: it stays as it was where
-  /// the poses left (d = 0), which is S. That of the prior only: in Huang et al. (2009), all
-  /// factors on its poses keep theirs.
+  /// the poses left (d = 0), which is S. This applies to the prior only; in Huang et al. (2009),
+  /// all factors on its poses keep theirs.
   bool first_estimate_jacobians = false;
 
   int poses() const { return static_cast<int>(linearization_points.size()); }
-  Eigen::MatrixXd Information() const;
-  Eigen::VectorXd Gradient() const;
 
   /// `s` has at least poses() poses. The Jacobian is with respect to their right perturbations.
   Eigen::VectorXd Residual(const std::vector<SE3>& s) const;

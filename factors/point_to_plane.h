@@ -9,13 +9,12 @@
 namespace trajlo {
 
 /// The residual of one point, and its Jacobian with respect to the right perturbations of both
-/// control poses where `wrt_poses` is given: the formulas stand at
-/// PointToPlaneCost.
+/// control poses if `wrt_poses` is given. See PointToPlaneCost for the formulas.
 double EvaluatePointToPlane(const RegistrationPoint& point, double sigma_m, const SE3& T_begin,
                             const SE3& T_end, Eigen::Matrix<double, 1, 12>* wrt_poses);
 
-/// The continuous-time geometric constraint of one point (paper's geometric error), the plain
-/// reference of SegmentRegistrationCost:
+/// The continuous-time geometric constraint of one point (the paper's geometric error), the plain
+/// reference for SegmentRegistrationCost:
 ///
 ///   r = sqrt(w)/sigma · (nᵀ phi(alpha) p - d),   phi(alpha) = T_begin ⊕ alpha (T_end ⊖ T_begin)
 ///

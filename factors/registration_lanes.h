@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 
 #include "factors/registration_point.h"
@@ -17,7 +16,6 @@
 
 namespace trajlo::registration_lanes {
 
-using lanes::Broadcast;
 using lanes::Broadcast3;
 using lanes::Dot;
 using lanes::Lane4;
@@ -25,7 +23,7 @@ using lanes::RotateInverse;
 using lanes::Vector3;
 
 inline constexpr int kLanes = 4;
-/// So many groups of points, each as wide as the lanes, are added to H at a time.
+/// This many groups of four points are added to H at a time.
 inline constexpr int kGroups = 8;
 
 /// A point begins with p and alpha, four numbers; n and the offset follow.
@@ -37,16 +35,13 @@ inline Lane4 LoadFour(const RegistrationPoint& point, int first) {
 }
 
 /// The axes of four points.
-using LaneAxes = std::array<std::int64_t, kLanes>;
+using LaneAxes = std::array<std::size_t, kLanes>;
 
 /// Four points, with one lane for each.
 struct GatheredPoints {
   Vector3<Lane4> p, n;
   Lane4 alpha, offset, weight;
   LaneAxes axis;
-
-  explicit GatheredPoints(const RegistrationPoint* first, std::size_t stride = 1)
-      : GatheredPoints(first[0], first[stride], first[2 * stride], first[3 * stride]) {}
 
   GatheredPoints(const RegistrationPoint& p0, const RegistrationPoint& p1,
                  const RegistrationPoint& p2, const RegistrationPoint& p3)
@@ -61,16 +56,16 @@ struct GatheredPoints {
   }
 };
 
-/// The first four of every `stride`-th point; where there are fewer, lanes without weight fill up.
+/// The first four of every `stride`-th point. Where there are fewer, the other lanes have no
+/// weight.
 inline GatheredPoints Gather(const RegistrationPoint* points, std::size_t count,
                              std::size_t stride = 1) {
-  if (count >= kLanes) return GatheredPoints(points, stride);
-  RegistrationPoint filled[kLanes];
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    filled[i] = points[stride * std::min(i, count - 1)];
-    if (i >= count) filled[i].weight = 0.0;
-  }
-  return GatheredPoints(filled);
+  const auto point = [&](std::size_t i) -> const RegistrationPoint& {
+    return points[stride * std::min(i, count - 1)];
+  };
+  GatheredPoints gathered(point(0), point(1), point(2), point(3));
+  for (std::size_t i = count; i < kLanes; ++i) gathered.weight[i] = 0.0;
+  return gathered;
 }
 
 /// The kernels of the three axes.
@@ -79,17 +74,17 @@ class AxisKernels {
   explicit AxisKernels(const RegistrationNoise& noise)
       : is_cauchy_(noise.kernel.kind == KernelKind::kCauchy) {
     for (std::size_t i = 0; i < 3; ++i) {
-      kernels_[i] = noise.KernelOf(static_cast<std::int64_t>(i));
+      kernels_[i] = noise.KernelOf(i);
       a_[i] = kernels_[i].width * kernels_[i].width;
     }
   }
   bool is_cauchy() const { return is_cauchy_; }
 
-  const RobustKernel& Of(std::int64_t axis) const { return kernels_[At(axis)]; }
+  const RobustKernel& Of(std::size_t axis) const { return kernels_[axis]; }
   /// Squares of the widths.
-  double Square(std::int64_t axis) const { return a_[At(axis)]; }
+  double Square(std::size_t axis) const { return a_[axis]; }
   Lane4 Squares(const LaneAxes& axis) const {
-    const Lane4 squares = {Square(axis[0]), Square(axis[1]), Square(axis[2]), Square(axis[3])};
+    const Lane4 squares = {a_[axis[0]], a_[axis[1]], a_[axis[2]], a_[axis[3]]};
     return squares;
   }
   /// rho'(s).
@@ -104,8 +99,6 @@ class AxisKernels {
   }
 
  private:
-  static std::size_t At(std::int64_t axis) { return static_cast<std::size_t>(axis); }
-
   bool is_cauchy_;
   std::array<RobustKernel, 3> kernels_;
   std::array<double, 3> a_;
@@ -122,7 +115,7 @@ class KernelSum {
   void Add(const LaneAxes& axis, const Lane4& s) {
     if (kernels_.is_cauchy()) {
       const Lane4 factor = 1.0 + s / kernels_.Squares(axis);
-      for (std::size_t i = 0; i < kLanes; ++i) product_[At(axis[i])][i] *= factor[i];
+      for (std::size_t i = 0; i < kLanes; ++i) product_[axis[i]][i] *= factor[i];
       return;
     }
     for (std::size_t i = 0; i < kLanes; ++i) sum_ += kernels_.Of(axis[i]).Rho(s[i]);
@@ -135,14 +128,12 @@ class KernelSum {
   }
 
  private:
-  static std::size_t At(std::int64_t axis) { return static_cast<std::size_t>(axis); }
-
   /// Adds the logarithms of the products that are not below `bound`.
   void TakeLogarithms(double bound) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (double& product : product_[axis]) {
         if (product < bound) continue;
-        sum_ += std::log(product) * kernels_.Square(static_cast<std::int64_t>(axis));
+        sum_ += std::log(product) * kernels_.Square(axis);
         product = 1.0;
       }
     }

@@ -22,8 +22,8 @@ struct RegistrationPoint {
   double coarseness = 1.0;
   /// Which of the window's three axes the normal is nearest to: 0, 1 or 2. See
   /// RegistrationNoise::widening.
-  std::int32_t axis = 0;
-  std::int32_t lidar = 0;  ///< Which LiDAR measured it.
+  std::uint32_t axis = 0;
+  std::uint32_t lidar = 0;  ///< Which LiDAR measured it.
 
   /// nᵀx - d, metres, of the point at `x_world`.
   double DistanceToPlane(const Eigen::Vector3d& x_world) const {

@@ -60,9 +60,9 @@ struct RobustKernel {
   }
 };
 
-/// The same kernel as a Ceres loss, for factors with one residual a point. The second derivative is
-/// reported as 0, which asks Ceres for the reweighted Gauss-Newton Hessian rho' JᵀJ; Ceres itself
-/// falls back to it for every concave loss, so nothing is lost.
+/// The same kernel as a Ceres loss, for factors with one residual per point. The second derivative
+/// is reported as 0, which asks Ceres for the reweighted Gauss-Newton Hessian rho' JᵀJ; Ceres
+/// itself falls back to it for every concave loss, so nothing is lost.
 class RobustKernelLoss final : public ceres::LossFunction {
  public:
   explicit RobustKernelLoss(const RobustKernel& kernel) : kernel_(kernel) {}

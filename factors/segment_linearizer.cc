@@ -39,8 +39,8 @@ void LinearizeGroup(const GatheredPoints& points, const SegmentMotion& m, double
   sums->cost.Add(at.axis, s);
   const Lane4 w = information * kernels.Weight(at.axis, s);
 
-  // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x
-  // theta].
+  // v = alpha Jl(alpha tau)ᵀ j by Horner's rule in ad(tau)ᵀ, where
+  // ad(tau)ᵀ [a; b] = [a x theta; a x rho + b x theta].
   const Vector3<Lane4> j1 = at.n0;
   const Vector3<Lane4> j2 = Cross(at.p0, at.n0);
   const Vector3<Lane4> rho = Broadcast3<Lane4>(m.rho);
@@ -92,11 +92,11 @@ void SegmentLinearizer::Sum::Add(const Sum& other) {
 }
 
 SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* points,
-                                                    size_t count) const {
+                                                    std::size_t count) const {
   const AxisKernels kernels(noise_);
   GroupSums sums(kernels);
   int group = 0;
-  for (size_t first = 0; first < count; first += kLanes) {
+  for (std::size_t first = 0; first < count; first += kLanes) {
     LinearizeGroup(Gather(points + first, count - first), motion_, noise_.sigma_m, kernels, group++,
                    &sums);
     if (group < kGroups && first + kLanes < count) continue;
@@ -112,11 +112,11 @@ SegmentLinearizer::Sum SegmentLinearizer::Linearize(const RegistrationPoint* poi
   return sum;
 }
 
-double SegmentLinearizer::Cost(const RegistrationPoint* points, size_t count) const {
+double SegmentLinearizer::Cost(const RegistrationPoint* points, std::size_t count) const {
   const AxisKernels kernels(noise_);
   KernelSum cost(kernels);
   const double information = 1.0 / (noise_.sigma_m * noise_.sigma_m);
-  for (size_t first = 0; first < count; first += kLanes) {
+  for (std::size_t first = 0; first < count; first += kLanes) {
     const LocatedPoints at(Gather(points + first, count - first), motion_);
     cost.Add(at.axis, at.weight * information * at.r * at.r);
     cost.EndBlock();
@@ -125,11 +125,10 @@ double SegmentLinearizer::Cost(const RegistrationPoint* points, size_t count) co
 }
 
 RegistrationNormalEquations SegmentLinearizer::Finish(const Sum& sum) const {
-  const SegmentMotion& m = motion_;
   // [dr/dT_begin dr/dT_end] = [jᵀ vᵀ] B.
   Matrix12d B = Matrix12d::Identity();
-  B.bottomLeftCorner<6, 6>() = -se3::LeftJacobianInverse(m.tau);
-  B.bottomRightCorner<6, 6>() = se3::RightJacobianInverse(m.tau);
+  B.bottomLeftCorner<6, 6>() = -se3::LeftJacobianInverse(motion_.tau);
+  B.bottomRightCorner<6, 6>() = se3::RightJacobianInverse(motion_.tau);
   RegistrationNormalEquations result;
   const Matrix12d H = sum.H.selfadjointView<Eigen::Upper>();
   result.H.noalias() = B.transpose() * H * B;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "factors/registration_point.h"
@@ -20,11 +19,11 @@ struct RegistrationNoise {
   double sigma_m = 0.1;
   /// Its width is in units of sigma: a kernel of c metres has width c / sigma.
   RobustKernel kernel{};
-  /// For the points of each RegistrationPoint::axis the kernel is so many times as wide.
+  /// How many times as wide the kernel is for the points of each RegistrationPoint::axis.
   std::array<double, 3> widening = {1.0, 1.0, 1.0};
 
-  RobustKernel KernelOf(std::int64_t axis) const {
-    return {kernel.kind, kernel.width * widening[static_cast<std::size_t>(axis)]};
+  RobustKernel KernelOf(std::size_t axis) const {
+    return {kernel.kind, kernel.width * widening[axis]};
   }
 };
 
@@ -42,14 +41,15 @@ struct LinearizedRegistration {
   RegistrationNormalEquations equations;
 
   /// The registration xi = [T_begin ⊖ T_world_begin; T_end ⊖ T_world_end] away from there, to first
-  /// order and with the kernel's weights of there: g + H xi, cost + gᵀxi + ½ xiᵀH xi.
+  /// order and with the same kernel weights: g + H xi, cost + gᵀxi + ½ xiᵀH xi.
   RegistrationNormalEquations At(const SE3& T_begin, const SE3& T_end) const;
 };
 
 /// Evaluates PointToPlaneCost for all points of a segment in one pass.
 ///
-/// Instead of two 6x6 interpolation Jacobians a point, everything happens in the begin frame, where
-/// the derivatives c and d of the paper factor into a part of the point and a part of the segment:
+/// Instead of two 6x6 interpolation Jacobians per point, everything happens in the begin frame,
+/// where the derivatives c and d of the paper factor into a part of the point and a part of the
+/// segment:
 ///
 ///   p0 = Exp(alpha tau) p,  n0 = R_beginᵀ n,  j = [n0; p0 x n0],  v = alpha Jl(alpha tau)ᵀ j
 ///   dr/dT_begin = jᵀ - vᵀ Jl⁻¹(tau),   dr/dT_end = vᵀ Jr⁻¹(tau)
@@ -70,8 +70,8 @@ class SegmentLinearizer {
     void Add(const Sum& other);
   };
 
-  Sum Linearize(const RegistrationPoint* points, size_t count) const;
-  double Cost(const RegistrationPoint* points, size_t count) const;
+  Sum Linearize(const RegistrationPoint* points, std::size_t count) const;
+  double Cost(const RegistrationPoint* points, std::size_t count) const;
 
   /// Turns a sum over [j; v] into the normal equations of [xi_begin; xi_end].
   RegistrationNormalEquations Finish(const Sum& sum) const;

@@ -11,7 +11,7 @@
 namespace trajlo {
 
 /// The registration of a whole segment as one block of 13 residuals with the cost, gradient and
-/// Gauss-Newton Hessian of one PointToPlaneCost a point with a RobustKernelLoss. With the normal
+/// Gauss-Newton Hessian of one PointToPlaneCost per point with a RobustKernelLoss. With the normal
 /// equations H = SᵀS and Sᵀs = g at the present poses,
 ///
 ///   residual = [s; sqrt(2 cost - |s|²)],  Jacobian = [S; 0].

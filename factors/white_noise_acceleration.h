@@ -18,8 +18,8 @@ namespace trajlo {
 /// q (Δt_1 + Δt_2) / 3: so the same q means the same motion whatever the intervals are.
 /// Neighbouring differences share a segment, and are correlated by a quarter where intervals are
 /// equal. A window takes them for independent: over many segments its velocity varies by 2/3 of
-/// what q says. Densities are learnt from innovations, each of which adds one difference, of which
-/// q is true.
+/// what q says. Densities are learnt from innovations, each of which adds one difference, for which
+/// q holds.
 ///
 /// All three poses are variables: the velocity before is as uncertain as the points left it. (The
 /// paper takes the estimated one for exact, see SmoothnessTerm; then a prior that is too stiff

@@ -9,7 +9,7 @@
 namespace trajlo {
 
 /// The pose within a segment (paper eq. 1): phi(alpha) = T_begin ⊕ alpha tau with
-/// tau = T_end ⊖ T_begin; alpha is 0 at the begin and 1 at the end of the segment.
+/// tau = T_end ⊖ T_begin; alpha is 0 at the start and 1 at the end of the segment.
 inline SE3 Interpolate(const SE3& T_begin, const SE3& T_end, double alpha) {
   return Plus(T_begin, alpha * Minus(T_end, T_begin));
 }

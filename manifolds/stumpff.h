@@ -8,8 +8,8 @@ namespace trajlo {
 /// The Stumpff functions c_n(x) = sum_k (-1)^k x^(2k) / (2k + n)!, entire in x², so that every
 /// coefficient of SO(3) and SE(3) is a polynomial in them and no formula divides by an angle:
 ///
-///   c0 = cos x, c1 = sin x / x, c2 = (1 - cos x)/x², c3 = (x - sin x)/x³, and c_n = 1/n! - x²
-///   c_{n+2}.
+///   c0 = cos x, c1 = sin x / x, c2 = (1 - cos x)/x², c3 = (x - sin x)/x³,
+///   c_n = 1/n! - x² c_{n+2}.
 ///
 /// Below x = 1 the series of c4 and c5 are summed (9 terms, or 5 below 0.1: the rest is below
 /// 1e-17) and the others follow by the recurrence, without a single trigonometric call; above, it
@@ -22,7 +22,7 @@ struct StumpffSeries {
   T c0, c1, c2, c3, c4, c5;
 
   /// The series branch, for x² <= `largest` <= 1; T may be a vector of lanes. Few terms are enough
-  /// for what turns within a segment.
+  /// for most segments, which turn little.
   explicit StumpffSeries(const T& s, double largest = 1.0) {
     // Horner form: c_n = 1/n! (1 - s/((n+1)(n+2)) (1 - s/((n+3)(n+4)) (...))).
     c4 = 1.0 - s * (1.0 / 132);

@@ -29,6 +29,14 @@ MarginalizationPrior RandomPrior(Random* random, int poses) {
   return prior;
 }
 
+/// H and b of the prior's quadratic.
+Eigen::MatrixXd Information(const MarginalizationPrior& prior) {
+  return prior.sqrt_information.transpose() * prior.sqrt_information;
+}
+Eigen::VectorXd Gradient(const MarginalizationPrior& prior) {
+  return prior.sqrt_information.transpose() * prior.offset;
+}
+
 std::vector<SE3> NearThePrior(const MarginalizationPrior& prior, Random* random, double angle,
                               double distance_m) {
   std::vector<SE3> poses;
@@ -102,8 +110,8 @@ TEST(MarginalizationPrior, SchurAndQrAgree) {
     for (int i = 0; i < poses; ++i) at.push_back(random.Pose());
     const auto schur = MarginalizeSchur(J.transpose() * J, J.transpose() * r, at);
     const auto qr = MarginalizeQr(J, r, at);
-    EXPECT_TRUE(schur.Information().isApprox(qr.Information(), 1e-10));
-    EXPECT_TRUE(schur.Gradient().isApprox(qr.Gradient(), 1e-10));
+    EXPECT_TRUE(Information(schur).isApprox(Information(qr), 1e-10));
+    EXPECT_TRUE(Gradient(schur).isApprox(Gradient(qr), 1e-10));
   }
 }
 
@@ -131,15 +139,15 @@ TEST(MarginalizationPrior, PoseByPoseOnALinearProblemEqualsTheFullBatch) {
     for (int k = 0; k + 1 < kPoses; ++k) {
       Matrix12d H_local = link_H[k];
       Vector12d g_local = link_g[k];
-      H_local.topLeftCorner<6, 6>() += prior.Information();
-      g_local.head<6>() += prior.Gradient();
+      H_local.topLeftCorner<6, 6>() += Information(prior);
+      g_local.head<6>() += Gradient(prior);
       prior = MarginalizeSchur(H_local, g_local, {SE3()});
     }
-    const Vector6d last = -prior.Information().ldlt().solve(prior.Gradient());
+    const Vector6d last = -Information(prior).ldlt().solve(Gradient(prior));
     EXPECT_LT((last - batch.tail<6>()).norm(), 1e-10);
     // The covariance of the last pose is that of the full batch, too.
     const Matrix6d covariance = H.inverse().bottomRightCorner<6, 6>();
-    EXPECT_TRUE(prior.Information().inverse().isApprox(covariance, 1e-9));
+    EXPECT_TRUE(Information(prior).inverse().isApprox(covariance, 1e-9));
   }
 }
 
@@ -151,10 +159,10 @@ TEST(MarginalizationPrior, DirectionsThatNobodyMeasuredStayFree) {
     H(i, 6 + i) = H(6 + i, i) = -1.0;
   }
   const auto prior = MarginalizeSchur(H, Vector12d::Zero(), {SE3()});
-  EXPECT_LT(prior.Information().norm(), 1e-12) << "a relative measurement must not anchor a pose";
+  EXPECT_LT(Information(prior).norm(), 1e-12) << "a relative measurement must not anchor a pose";
   // With an anchor on the leaving pose, exactly the five measured directions are held.
   H.topLeftCorner<6, 6>() += Matrix6d::Identity();
-  const Matrix6d information = MarginalizeSchur(H, Vector12d::Zero(), {SE3()}).Information();
+  const Matrix6d information = Information(MarginalizeSchur(H, Vector12d::Zero(), {SE3()}));
   EXPECT_NEAR(information(5, 5), 0.0, 1e-12);
   EXPECT_NEAR(information(0, 0), 0.5, 1e-12);
 }
@@ -169,7 +177,7 @@ TEST(MarginalizationPrior, TheLinearTermPullsToTheMinimumOfWhatWasEliminated) {
   Vector12d g;
   g << -a + b, -b;
   const auto prior = MarginalizeSchur(H, g, {SE3()});
-  const Vector6d minimum = -prior.Information().ldlt().solve(prior.Gradient());
+  const Vector6d minimum = -Information(prior).ldlt().solve(Gradient(prior));
   EXPECT_LT((minimum - (a + b)).norm(), 1e-12);
 }
 

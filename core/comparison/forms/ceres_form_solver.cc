@@ -49,9 +49,7 @@ void AddRegistration(const CeresFormOptions& form, const Window& window, int k,
   const std::vector<RegistrationPoint>& points = window.At(k).points;
   if (points.empty()) return;
   const double sigma_m = window.noise.sigma_m;
-  const auto loss_of = [&](const RegistrationPoint& point) {
-    return &(*losses)[static_cast<std::size_t>(point.axis)];
-  };
+  const auto loss_of = [&](const RegistrationPoint& point) { return &(*losses)[point.axis]; };
   switch (form.registration) {
     case RegistrationForm::kPrepared:  // The same, but for CeresSolver's way to compute it.
     case RegistrationForm::kCondensed:

@@ -11,7 +11,7 @@
 namespace trajlo {
 
 /// An allocator for standard containers. Large arrays get huge pages (2 MiB), where the system has
-/// them: a map is read all over, and with pages of 4 KiB the processor spends much of its time on
+/// them: a map is read all over, and with pages of 4 KiB the processor spends much of its time
 /// finding them. An array that is freed goes back to the system at once.
 template <typename T>
 class HugePageAllocator {
@@ -26,7 +26,7 @@ class HugePageAllocator {
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
     if (bytes < kHugePage) return std::allocator<T>().allocate(count);
-    // A huge page begins at a multiple of its size: what is before and behind is given back.
+    // A huge page begins at a multiple of its size: what lies before and after is given back.
     const std::size_t mapped = RoundUp(bytes) + kHugePage;
     void* memory =
         mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -36,7 +36,7 @@ class HugePageAllocator {
     char* begin = static_cast<char*>(memory) + before;
     if (before > 0) munmap(memory, before);
     munmap(begin + RoundUp(bytes), kHugePage - before);
-    // Only advice: where it is not taken, all is as it was.
+    // Only advice: if it is not taken, nothing changes.
     madvise(begin, RoundUp(bytes), MADV_HUGEPAGE);
     return reinterpret_cast<T*>(begin);
   }

@@ -25,20 +25,17 @@ struct KdTreeIndex::Index {
 
   Cloud cloud;
   Tree tree{3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10)};
-
-  void Add(const std::vector<Eigen::Vector3d>& points) {
-    if (points.empty()) return;
-    const std::size_t first = cloud.points.size();
-    cloud.points.insert(cloud.points.end(), points.begin(), points.end());
-    tree.addPoints(first, cloud.points.size() - 1);
-  }
 };
 
 KdTreeIndex::KdTreeIndex() : index_(std::make_unique<Index>()) {}
 KdTreeIndex::~KdTreeIndex() = default;
 
 void KdTreeIndex::Add(const std::vector<Eigen::Vector3d>& points_world) {
-  index_->Add(points_world);
+  if (points_world.empty()) return;
+  std::vector<Eigen::Vector3d>& points = index_->cloud.points;
+  const std::size_t first = points.size();
+  points.insert(points.end(), points_world.begin(), points_world.end());
+  index_->tree.addPoints(first, points.size() - 1);
 }
 
 void KdTreeIndex::Clear() { index_ = std::make_unique<Index>(); }

@@ -59,13 +59,13 @@ class MapLevel {
     return from_center.abs().maxCoeff() <= 0.75;
   }
 
-  /// Where the planes of a cell refer to, if they are shared.
+  /// The place that the planes of a cell refer to, if they are shared.
   Eigen::Vector3d CenterOf(const VoxelKey& cell) const {
     return cell_size_ * (cell.cast<double>().array() + 0.5);
   }
 
-  /// Asking for a plane takes three steps. Those of many queries go side by side, each step
-  /// fetching ahead what the next one reads.
+  /// Asking for a plane takes three steps. Many queries take each step together, which fetches
+  /// ahead what the next one reads.
   VoxelIndex::Slot Locate(const VoxelKey& cell) const {
     const VoxelIndex::Slot slot = points_.index().Find(VoxelOf(cell));
     if (slot != VoxelIndex::kNoSlot) points_.index().Prefetch(slot);

@@ -53,8 +53,9 @@ struct MapPyramid::Batch {
 };
 
 MapPyramid::MapPyramid(const MapPyramidOptions& options) : plane_(options.plane) {
-  if (options.levels < 1 || options.levels > kMaxLevels) {
-    throw std::invalid_argument("a map pyramid has 1 to " + std::to_string(kMaxLevels) + " levels");
+  if (options.levels < 1 || options.levels > MapPyramidOptions::kMaxLevels) {
+    throw std::invalid_argument("a map pyramid has 1 to " +
+                                std::to_string(MapPyramidOptions::kMaxLevels) + " levels");
   }
   MapOptions level = options.finest;
   for (int i = 0; i < options.levels; ++i) {
@@ -66,7 +67,8 @@ MapPyramid::MapPyramid(const MapPyramidOptions& options) : plane_(options.plane)
 
 void MapPyramid::Insert(const std::vector<Eigen::Vector3d>& points_world) {
   ++version_;
-  // What a level has no use for, because it has points there, is hardly of use for coarser ones.
+  // Points that a level has no use for, because it has others there, are hardly of use to coarser
+  // ones.
   std::vector<Eigen::Vector3d> offered = points_world;
   for (MapLevel& level : levels_) offered = level.Insert(offered);
 }
@@ -140,20 +142,13 @@ void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane*
     if (!query.plane.exists()) continue;
     plane.normal_world = query.plane.normal_world.cast<double>();
     plane.offset_m = plane.normal_world.dot(query.center_world) + query.plane.offset_m;
-    plane.scale = std::ldexp(1.0, query.level);
     plane.normal_variance_rad2 = query.is_grazed ? std::numeric_limits<double>::infinity()
                                                  : query.plane.normal_variance_rad2;
     const double relative = query.plane.thickness_m / PlaneFitOptions::kHalfWeightThickness_m;
-    plane.coarseness = query.is_wide ? 1.0 : plane.scale;
+    plane.coarseness = query.is_wide ? 1.0 : std::ldexp(1.0, query.level);
     const double squared = plane.coarseness * plane.coarseness;
     plane.weight = 1.0 / ((1.0 + relative * relative) * squared * squared);
   }
-}
-
-Plane MapPyramid::FindPlane(const PlaneQuery& query) const {
-  Plane plane;
-  FindPlanes(&query, 1, &plane);
-  return plane;
 }
 
 }  // namespace trajlo

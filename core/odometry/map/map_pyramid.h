@@ -14,11 +14,12 @@ struct MapPyramidOptions {
   MapOptions finest;
   PlaneFitOptions plane;
   int levels = 4;
+  static constexpr int kMaxLevels = 8;
 
   template <typename Describer>
   void Describe(Describer& d) {
     finest.Describe(d);
-    d(OptionFor::kExperts, "levels", levels, Range<int>{1, 8},
+    d(OptionFor::kExperts, "levels", levels, Range<int>{1, kMaxLevels},
       "Maps of growing coarseness, each with voxels and spacing twice those of the one before.");
   }
 };
@@ -35,10 +36,9 @@ struct Plane {
   double offset_m;
   /// Relative information of a distance to it, in (0, 1]; zero says that there is no plane.
   double weight = 0.0;
-  /// Voxels of the level it comes from, in those of the finest.
-  double scale = 1.0;
-  /// The same, but 1 for a wide and thin plane. The weight is divided by its fourth power: a
-  /// surface that is not flat leaves its plane by the square of the plane's size.
+  /// The voxel size of its level as a multiple of the finest; 1 for a wide and thin plane. The
+  /// weight is divided by its fourth power: a surface that is not flat departs from its plane by
+  /// the square of the plane's size.
   double coarseness = 1.0;
   /// See FittedPlane; infinite where the ray merely grazes the plane, which may be no surface.
   double normal_variance_rad2 = 0.0;
@@ -53,16 +53,15 @@ struct Plane {
 /// just entered) the next coarser one, whose voxels reach farther.
 ///
 /// But a finer plane is taken only if it is thinner. The shape of a surface makes planes the
-/// thinner, the smaller they are; noise does not. Of points that scatter as far as a voxel, every
-/// place has a plane of its own, which passes where one asks: they would hold the sensor where it
-/// is.
+/// thinner, the smaller they are; noise does not. Where points scatter as far as a voxel, every
+/// place has a plane of its own, which passes through wherever one asks: such planes would hold the
+/// sensor where it is.
 class MapPyramid {
  public:
-  static constexpr int kMaxLevels = 8;
   /// The most queries at a time.
   static constexpr std::size_t kMaxBatch = 64;
 
-  /// Throws std::invalid_argument unless there are 1 to kMaxLevels levels.
+  /// Throws std::invalid_argument unless there are 1 to MapPyramidOptions::kMaxLevels levels.
   explicit MapPyramid(const MapPyramidOptions& options);
 
   void Insert(const std::vector<Eigen::Vector3d>& points_world);
@@ -81,16 +80,15 @@ class MapPyramid {
   VoxelKey CellOf(const Eigen::Vector3d& place_world) const {
     return levels_.front().CellOf(place_world);
   }
-  /// Whether a place is in a cell of the finest level, or hardly outside.
+  /// Whether a place is in a cell of the finest level, or just outside it.
   bool IsAround(const Eigen::Vector3d& place_world, const VoxelKey& cell) const {
     return levels_.front().IsAround(place_world, cell);
   }
   /// Another number after each insertion.
   std::int64_t version() const { return version_; }
   /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
-  /// taken only where there is no other. The weight of one falls with its coarseness.
+  /// taken only where there is no other.
   void FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const;
-  Plane FindPlane(const PlaneQuery& query) const;
 
   const VoxelHashMap& finest() const { return levels_.front().points(); }
 

@@ -13,15 +13,13 @@ namespace trajlo {
 
 /// The planes of a map, one for each eighth of a voxel that is a site, fitted when first asked for.
 ///
-/// A plane stands until the number of points around its site has grown by more than an eighth and
-/// one. It is a function of the place and of the map at the time of the fit, and the map stands
-/// still while planes are asked for: so no answer depends on which thread came first. One of them
+/// A plane is kept until the number of points around its site has grown by more than an eighth plus
+/// one. It is a function of the place and of the map at the time of the fit, and the map does not
+/// change while planes are asked for: so no answer depends on which thread came first. One of them
 /// claims the cell; another that finds it claimed fits for itself.
 class PlaneCells {
  public:
-  static constexpr std::uint32_t kPerSite = 8;
-
-  /// For sites with numbers below `sites`. Not beside Get().
+  /// For sites with numbers below `sites`. Not while another thread is in Get().
   void Resize(std::size_t sites) {
     constexpr std::size_t kSites = std::size_t{1} << kSitesPerBlockLog2;
     if (blocks_.empty()) blocks_.emplace_back();
@@ -30,7 +28,7 @@ class PlaneCells {
     blocks_.front().resize(kPerSite * std::min(sites, kSites));
     while (blocks_.size() * kSites < sites) blocks_.emplace_back(kPerSite * kSites);
   }
-  /// Forgets the planes of a site. Not beside Get().
+  /// Forgets the planes of a site. Not while another thread is in Get().
   void Clear(std::uint32_t site) {
     for (std::uint32_t i = 0; i < kPerSite; ++i) {
       At(site, i).fitted_at.store(kNever, std::memory_order_relaxed);
@@ -47,7 +45,7 @@ class PlaneCells {
                   const Fit& fit) const {
     Cell& kept = At(site, cell);
     std::uint32_t fitted_at = kept.fitted_at.load(std::memory_order_acquire);
-    if (Stands(fitted_at, points_around)) return kept.plane;
+    if (IsKept(fitted_at, points_around)) return kept.plane;
     const bool is_mine =
         fitted_at != kClaimed &&
         kept.fitted_at.compare_exchange_strong(fitted_at, kClaimed, std::memory_order_relaxed);
@@ -60,6 +58,8 @@ class PlaneCells {
   }
 
  private:
+  static constexpr std::uint32_t kPerSite = 8;
+  static constexpr std::uint32_t kSitesPerBlockLog2 = 13;
   static constexpr std::uint32_t kNever = 0;
   static constexpr std::uint32_t kClaimed = ~std::uint32_t{0};
 
@@ -72,13 +72,11 @@ class PlaneCells {
         : plane(other.plane), fitted_at(other.fitted_at.load(std::memory_order_relaxed)) {}
   };
 
-  static bool Stands(std::uint32_t fitted_at, std::uint32_t points_around) {
+  static bool IsKept(std::uint32_t fitted_at, std::uint32_t points_around) {
     // A claimed one counts more points than there can be.
     return fitted_at != kNever && fitted_at <= points_around &&
            points_around - fitted_at <= fitted_at / 8 + 1;
   }
-
-  static constexpr std::uint32_t kSitesPerBlockLog2 = 13;
 
   Cell& At(std::uint32_t site, std::uint32_t cell) const {
     constexpr std::uint32_t kLast = (std::uint32_t{1} << kSitesPerBlockLog2) - 1;

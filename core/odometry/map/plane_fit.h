@@ -16,11 +16,11 @@ namespace trajlo {
 /// where e_i, v_i and u_i are the coordinates of point i along the normal and these two axes, from
 /// the mean: e_i / (1 - h_i) is how far the point lies from the plane through the others.
 ///
-/// What a plane must show is not that it fits its points, but that they foretell one another. A
+/// What a plane must show is not that it fits its points, but that they predict one another. A
 /// scan line on a road and one point of a post beside it lie on a vertical plane, within
 /// millimetres. On a motorway two of a hundred points had such planes, and two thirds of all
 /// information along the road: they hold a car that starts to move where it is, since the scan line
-/// moves along.
+/// moves with it.
 /// Source: D. Allen, The relationship between variable selection and data augmentation and a method
 /// for prediction, Technometrics 1974 (predicted residuals).
 struct PlaneFitOptions {
@@ -35,9 +35,9 @@ struct PlaneFitOptions {
   static constexpr double kMinWidthInScatters = 1.5;
   double min_incidence_sine = 0.1;
   double max_wide_flatness = 0.1;
-  /// Upper bound of the distance from a plane of a coarser level that is preferred to the point
-  /// that asks for it, in l1: farther off stands something else, which the coarser levels have no
-  /// points of (a post before a wall).
+  /// Upper bound of the distance between a preferred plane of a coarser level and the point that
+  /// asks for it, in l1: farther off stands something else, of which the coarser levels have no
+  /// points (a post in front of a wall).
   static constexpr double kMaxWideDistanceInWidths = 0.3;
   /// A plane of this thickness weighs half as much as a thin one.
   static constexpr double kHalfWeightThickness_m = 0.05;

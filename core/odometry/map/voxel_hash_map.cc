@@ -9,6 +9,10 @@
 namespace trajlo {
 namespace {
 
+/// Points are inserted and checked in batches. Each of these goes in steps, which fetch ahead what
+/// the next one reads.
+constexpr std::size_t kBatch = 32;
+
 /// From a voxel to those that share a face with it.
 const VoxelKey kFaces[6] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
 
@@ -95,8 +99,6 @@ void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
 std::vector<Eigen::Vector3d> VoxelHashMap::Insert(
     const std::vector<Eigen::Vector3d>& points_world) {
   std::vector<Eigen::Vector3d> accepted;
-  // In steps, each of which fetches ahead what the next one reads.
-  constexpr std::size_t kBatch = 32;
   std::array<VoxelKey, kBatch> keys;
   std::array<std::array<VoxelIndex::Slot, 7>, kBatch> around;
   for (std::size_t first = 0; first < points_world.size(); first += kBatch) {
@@ -133,7 +135,6 @@ std::vector<Eigen::Vector3d> VoxelHashMap::Insert(
 }
 
 void VoxelHashMap::DropRefused(std::vector<Eigen::Vector3d>* points_world) const {
-  constexpr std::size_t kBatch = 32;
   std::array<VoxelKey, kBatch> keys;
   std::array<VoxelIndex::Slot, kBatch> slots;
   std::size_t kept = 0;
@@ -187,8 +188,8 @@ void VoxelHashMap::DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* ch
 
 void VoxelHashMap::RemoveFar(const Eigen::Vector3d& center_world,
                              std::vector<std::uint32_t>* changed) {
-  // Removal visits every voxel; doing it only every so often changes nothing that queries can see
-  // but the rim of the map.
+  // Removal visits every voxel. Queries can only tell at the rim of the map that it is done from
+  // time to time.
   const double slack = 0.05 * radius_;
   if (last_removal_center_ && (center_world - *last_removal_center_).norm() < slack) return;
   last_removal_center_ = center_world;

@@ -17,7 +17,7 @@ namespace trajlo {
 ///
 /// Every voxel that has points or shares a face with one that does knows how many points there are
 /// around it. Where they are enough for a plane it is a site, and has a number. Queries are const
-/// and may run on several threads; insertion and removal may not run beside them.
+/// and may run on several threads; insertion and removal may not run at the same time.
 class VoxelHashMap {
  public:
   /// The paper's bound.
@@ -37,17 +37,15 @@ class VoxelHashMap {
   void DropRefused(std::vector<Eigen::Vector3d>* points_world) const;
 
   /// Drops what is farther than the radius from `center_world`. Appends to `changed` the numbers of
-  /// all sites that lost points, once or more; the numbers of those that are none any more may be
-  /// given anew.
+  /// all sites that lost points, once or more; those of voxels that are no longer sites may be
+  /// given to others.
   void RemoveFar(const Eigen::Vector3d& center_world, std::vector<std::uint32_t>* changed);
 
   /// The `k` nearest points, 1 to kMaxNeighbors, of the seven voxels around `query_world`.
   void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const;
 
-  VoxelKey KeyOf(const Eigen::Vector3d& p) const { return VoxelAt(p, inverse_size_); }
-  Eigen::Vector3d CornerOf(const VoxelKey& key) const { return voxel_size_ * key.cast<double>(); }
   const VoxelIndex& index() const { return index_; }
-  /// All numbers of sites are smaller.
+  /// The numbers of all sites are smaller.
   std::size_t site_capacity() const { return site_count_; }
 
   double min_point_spacing_m() const { return spacing_; }
@@ -69,6 +67,8 @@ class VoxelHashMap {
   static_assert(sizeof(Block) == 64);
   struct Candidates;
 
+  VoxelKey KeyOf(const Eigen::Vector3d& p) const { return VoxelAt(p, inverse_size_); }
+  Eigen::Vector3d CornerOf(const VoxelKey& key) const { return voxel_size_ * key.cast<double>(); }
   /// Whether a voxel, given by its first block, is not full and has no point that is too near.
   bool HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) const;
   void Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p);

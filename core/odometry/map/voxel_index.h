@@ -14,8 +14,8 @@ namespace trajlo {
 /// The coordinates of a voxel: floor(p / size).
 using VoxelKey = Eigen::Vector3i;
 
-/// floor(p / size). What has run away, or is NaN, for which no comparison holds, ends as far from
-/// all that is near as a packed key can be.
+/// floor(p / size). A coordinate that has run away, or is NaN (for which no comparison holds), ends
+/// as far from all sane ones as a packed key can be.
 inline VoxelKey VoxelAt(const Eigen::Vector3d& p, double inverse_size) {
   constexpr double kLargest = (1 << 30) - (1 << 20);
   VoxelKey key;
@@ -57,7 +57,7 @@ class VoxelIndex {
     const std::uint32_t brick = FindBrick(BrickKey(key));
     return brick == kNoBrick ? kNoSlot : brick * kVoxels + Within(key);
   }
-  /// The same, given where `beside`, a voxel near by, is: mostly in the same brick.
+  /// The same, given the slot of `beside`, a voxel nearby: mostly in the same brick.
   Slot FindBeside(const VoxelKey& beside, Slot slot, const VoxelKey& key) const {
     const bool is_in_brick = slot != kNoSlot && BrickKey(beside) == BrickKey(key);
     return is_in_brick ? InBrickOf(slot, key) : Find(key);
@@ -76,8 +76,6 @@ class VoxelIndex {
   /// Brings an entry into the cache.
   void Prefetch(Slot slot) const { __builtin_prefetch(&(*this)[slot]); }
 
-  std::size_t bricks() const { return size_; }
-
  private:
   static constexpr std::uint32_t kVoxels = 64;
   static constexpr std::uint32_t kNoBrick = kNoSlot / kVoxels;
@@ -92,7 +90,7 @@ class VoxelIndex {
     std::uint32_t brick = kNoBrick;
   };
 
-  /// 21 bits an axis: bricks that are a multiple of 2^21 apart are one, and no map is so wide.
+  /// 21 bits per axis: bricks that are a multiple of 2^21 apart are one, and no map is so wide.
   static std::uint64_t BrickKey(const VoxelKey& key) {
     constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
     return (static_cast<std::uint64_t>(key.x() >> 2) & kMask) |
@@ -128,7 +126,7 @@ class VoxelIndex {
   std::vector<Brick, HugePageAllocator<Brick>> bricks_;
   std::vector<std::uint32_t> free_bricks_;
   std::vector<Place> table_;  ///< A power of two of them, at most half full.
-  std::size_t size_ = 0;
+  std::size_t size_ = 0;      ///< Bricks in the table.
 };
 
 }  // namespace trajlo

@@ -8,11 +8,11 @@
 namespace trajlo {
 
 /// A bounded number of threads. Work is handed out by index and every index writes its own result,
-/// so that no result depends on how many threads there are. Stands on oneTBB, whose headers stay
-/// with the source: they cost whoever includes them a second.
+/// so that no result depends on how many threads there are. Built on oneTBB, whose headers only the
+/// source includes: each file that does takes a second longer to compile.
 class ThreadPool {
  public:
-  /// `threads` = 0 takes all cores; no more than there are would be of use.
+  /// `threads` = 0 takes all cores; more threads than cores are never made.
   explicit ThreadPool(int threads);
   ~ThreadPool();
 

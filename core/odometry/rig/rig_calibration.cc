@@ -15,11 +15,11 @@ constexpr double kPriorSigma_m = 0.03;
 constexpr double kPriorSigma_rad = 0.02;
 constexpr double kPriorSigma_s = 0.01;
 constexpr double kMemory_s = 10.0;
-/// Planes are seen from another place when the body has moved by as much, or has turned such that
-/// a point at this distance has.
+/// Planes are seen from another place when the body has moved this far, or has turned so far that a
+/// point at the end of this lever has.
 constexpr double kPlace_m = 0.25;
 constexpr double kLeverArm_m = 5.0;
-/// A LiDAR is known when it has seen the map from so many: on 2.5 m, or in half a radian.
+/// A LiDAR is known when it has seen the map from this many places: after 2.5 m, or half a radian.
 constexpr double kEnoughPlaces = 10.0;
 /// Holds the pose where the points of a segment do not.
 constexpr double kPoseInformation = 1.0;
@@ -61,8 +61,7 @@ std::vector<std::vector<RegistrationPoint>> PointsByLidar(
     const std::vector<RegistrationPoint>& points, std::size_t lidars, std::size_t reference) {
   std::vector<std::vector<RegistrationPoint>> by_lidar(lidars);
   for (const RegistrationPoint& point : points) {
-    const auto lidar = static_cast<std::size_t>(point.lidar);
-    if (lidar != reference) by_lidar[lidar].push_back(point);
+    if (point.lidar != reference) by_lidar[point.lidar].push_back(point);
   }
   return by_lidar;
 }
@@ -94,8 +93,9 @@ bool RigCalibration::IsKnown(std::size_t lidar) const {
 void RigCalibration::Apply(SegmentCloud* cloud) const {
   if (!is_learning_ || !reference_ || cloud->corrections.size() < 2) return;
   for (std::size_t l = 0; l < cloud->corrections.size(); ++l) {
-    cloud->corrections[l].T_body = Correction(l).T_body;
-    cloud->lidar_origins_body_m[l] = Correction(l).T_body * cloud->lidar_origins_body_m[l];
+    SE3& C = cloud->corrections[l].T_body;
+    C = Correction(l).T_body;
+    cloud->lidar_origins_body_m[l] = C * cloud->lidar_origins_body_m[l];
   }
   for (std::vector<SegmentPoint>* points : {&cloud->map_points, &cloud->registration_points}) {
     for (SegmentPoint& point : *points) {
@@ -133,7 +133,7 @@ void RigCalibration::Learn(const Window& window) {
   B << Matrix6d::Identity(), TwistOf(window);
   const auto by_lidar = PointsByLidar(segment.points, lidars, *reference_);
   std::vector<RigidEquations> of(lidars);
-  /// From what the points were corrected by to what is known now.
+  // From what the points were corrected by to what is known now.
   Eigen::VectorXd since = Eigen::VectorXd::Zero(g_.size());
   for (std::size_t l = 0; l < lidars; ++l) {
     if (by_lidar[l].empty()) continue;

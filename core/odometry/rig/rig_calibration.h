@@ -14,8 +14,8 @@ namespace trajlo {
 
 /// Where the LiDARs of a rig really are, and what their clocks really show, found while running.
 ///
-/// Poses that were calibrated, or read from a drawing, are off by a centimetre and some tenths of a
-/// degree, and clocks by some milliseconds. Points of two LiDARs then make two walls of one, and
+/// Poses that were calibrated, or read from a drawing, are off by a centimetre and a few tenths of
+/// a degree, and clocks by a few milliseconds. Points of two LiDARs then make two walls of one, and
 /// the map agrees with both. So the points of LiDAR l are moved by a correction in the body frame,
 /// p_body = C_l T_body_lidar p_lidar, and in time, t + c_l. One LiDAR is the reference, which has
 /// none: the first that sees at least half as much as any other when the recording begins.
@@ -27,20 +27,20 @@ namespace trajlo {
 ///
 ///   S_lm = Bᵀ([l = m] A_l - A_l A⁻¹ A_m) B,   s_l = Bᵀ(g_l - A_l A⁻¹ g),
 ///
-/// where A and g are the sums over all LiDARs. S and s are what the LiDARs tell about each other,
+/// where A and g are the sums over all LiDARs. S and s are what the LiDARs say about each other,
 /// whatever the pose is. They are summed over the segments that leave the window, with a memory, on
 /// a prior around what was given.
 ///
 /// Map points of a LiDAR would prove any correction right, and points that see the same planes from
 /// the same place share their errors. So those of a LiDAR are registered from the beginning, but
 /// enter the map only when it has seen it from enough places. Where it sees nothing that others
-/// saw, nothing tells, and it stays where it was said to be.
+/// saw, there is no evidence, and it stays where it was said to be.
 class RigCalibration {
  public:
   /// Without `is_learning` nothing is corrected.
   explicit RigCalibration(bool is_learning) : is_learning_(is_learning) {}
 
-  /// A map is to begin of these segments: chooses the reference, if there is none.
+  /// A map is about to begin with these segments: chooses the reference, if there is none.
   void Begin(std::vector<SegmentCloud>* segments);
 
   /// Moves the points of a segment to where they are by what is known now; in time they were moved
@@ -48,7 +48,7 @@ class RigCalibration {
   /// `map_points`, unless no others are in it.
   void Apply(SegmentCloud* cloud) const;
 
-  /// Takes what the oldest segment of a window that is believed tells, at its present poses.
+  /// Learns what the oldest segment of a window that is believed tells, at its present poses.
   void Learn(const Window& window);
 
   /// Nothing for the reference and for a LiDAR that was not seen.
@@ -63,7 +63,7 @@ class RigCalibration {
  private:
   struct Lidar {
     LidarCorrection correction;
-    double places = 0.0;  ///< From so many it has seen.
+    double places = 0.0;  ///< From how many it has seen the map.
   };
   void DropUnknown(SegmentCloud* cloud) const;
   void Add(std::size_t lidars);

@@ -14,7 +14,7 @@ namespace trajlo {
 inline double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 /// A point of a segment in the body frame at its own time; `alpha` is that time as a share of the
-/// segment: 0 at its begin, 1 at its end.
+/// segment: 0 at its start, 1 at its end.
 struct SegmentPoint {
   Eigen::Vector3f p_body_m;
   float alpha;

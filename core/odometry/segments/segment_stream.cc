@@ -32,7 +32,7 @@ PointCounts SegmentStream::point_counts() const {
 
 double SegmentStream::TakeMilliseconds() { return std::exchange(handed_on_ms_, 0.0); }
 
-/// A scan whose times go on from those before.
+/// A scan whose times follow those of the scan before.
 void SegmentStream::Cut(const LidarScan& scan) {
   SideTask notice(threads_);
   if (on_scan_) notice.Start([&] { on_scan_(scan); });

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/odometry/parallel/thread_pool.h"
@@ -11,7 +12,7 @@
 
 namespace trajlo {
 
-/// All that lies before the estimator: scans go in as they were recorded, segments come out in
+/// Everything ahead of the estimator: scans go in as they were recorded, segments come out in
 /// order.
 ///
 /// While the estimator takes a segment, another thread of the pool thins the next one, if it is
@@ -42,7 +43,7 @@ class SegmentStream {
 
   PointCounts point_counts() const;
   const TimeReport& time_report() const { return sequencer_.report(); }
-  /// What the segments took that were handed on since the last call.
+  /// The time spent on the segments that were handed on since the last call.
   double TakeMilliseconds();
 
  private:
@@ -56,7 +57,7 @@ class SegmentStream {
   HandOn hand_on_;
   std::function<void(const LidarScan&)> on_scan_;
   std::optional<SegmentCloud> next_;  ///< Thinned, not handed on yet.
-  double next_ms_ = 0.0;              ///< That took so long.
+  double next_ms_ = 0.0;              ///< How long that took.
   double handed_on_ms_ = 0.0;
 };
 

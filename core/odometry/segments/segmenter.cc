@@ -21,6 +21,12 @@ std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
 
 std::int64_t DurationNs(double seconds) { return std::max(ToNs(seconds), kShortest_ns); }
 
+std::int64_t FirstTime_ns(const LidarScan& scan) {
+  std::int64_t first_ns = kForever;
+  for (const LidarPoint& point : scan.points) first_ns = std::min(first_ns, point.t_ns);
+  return first_ns;
+}
+
 }  // namespace
 
 Segmenter::Segmenter(const SegmenterOptions& options)
@@ -94,15 +100,8 @@ std::int64_t Segmenter::FirstOpen_ns() const {
   return *end_ns_;
 }
 
-void Segmenter::AddContinuous(const LidarScan& scan) {
-  const auto lidar = static_cast<std::size_t>(scan.lidar_id);
-  const SE3 T_body_lidar = PoseOf(lidar);
-  if (scan.points.empty()) return;
-  std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
-  for (const LidarPoint& point : scan.points) first_ns = std::min(first_ns, point.t_ns);
-  const std::int64_t clock_ns = ToNs(ClockOf_s(lidar));
-  first_ns += clock_ns;
-
+/// Opens the first slot, or a gap where a scan that begins at `first_ns` comes after a long pause.
+void Segmenter::ReachTo(std::int64_t first_ns) {
   if (!end_ns_) {
     end_ns_ = first_ns;
     OpenNext(first_ns + interval_ns_);
@@ -111,6 +110,15 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
     OpenNext(first_ns, true);
     CompleteUntil(first_ns);
   }
+}
+
+void Segmenter::AddContinuous(const LidarScan& scan) {
+  if (scan.points.empty()) return;
+  const auto lidar = static_cast<std::size_t>(scan.lidar_id);
+  const SE3 T_body_lidar = PoseOf(lidar);
+  const std::int64_t clock_ns = ToNs(ClockOf_s(lidar));
+  const std::int64_t first_ns = FirstTime_ns(scan) + clock_ns;
+  ReachTo(first_ns);
 
   const std::int64_t first_open_ns = FirstOpen_ns();
   std::int64_t newest_ns = kUnseen;
@@ -159,7 +167,7 @@ Segmenter::Slot* Segmenter::DiscreteSlotAt(std::int64_t stamp_ns) {
     if (slot.end_ns <= complete_until_ns_ || slot.is_gap) return nullptr;
     if (std::abs(stamp_ns - slot.end_ns) < kShortest_ns) return &slot;
     if (stamp_ns < slot.begin_ns + kShortest_ns) continue;
-    // Of another LiDAR, between two scans that came before.
+    // From another LiDAR, between two earlier scans.
     const auto before = slots_.insert(slots_.begin() + static_cast<std::ptrdiff_t>(i),
                                       {slot.begin_ns, stamp_ns, false, {}, {}});
     slots_[i + 1].begin_ns = stamp_ns;
@@ -184,8 +192,8 @@ void Segmenter::AddDiscrete(const LidarScan& scan) {
   newest_ns_[lidar] = std::max(newest_ns_[lidar], slot->end_ns);
 }
 
-/// Completes what all LiDARs have passed, but waits only so long for one that has not spoken yet,
-/// and not at all for one that fell silent.
+/// Completes what all LiDARs have passed, but waits only for a while for one that has not been
+/// heard yet, and not at all for one that fell silent.
 void Segmenter::CompletePassed() {
   const std::int64_t leader = *std::max_element(newest_ns_.begin(), newest_ns_.end());
   if (leader == kUnseen) return;

@@ -62,7 +62,7 @@ struct SegmenterOptions {
 /// Cuts the stream of scans into segments, whatever the length of a scan.
 ///
 /// Segment 0 starts at the first point; the others follow without holes. A segment is handed out
-/// when every LiDAR has passed its end, but for one that is silent or late. Where no scan has point
+/// when every LiDAR has passed its end, except one that is silent or late. Where no scan has point
 /// times (motion-corrected ones) each becomes a segment, from the previous stamp to its own, with
 /// alpha = 1 for every point: the discrete mode of the paper. The first of these is an instant,
 /// which only fills the map. After a gap, such a segment is as long as the one before it. Every
@@ -98,6 +98,7 @@ class Segmenter {
   void AddDiscrete(const LidarScan& scan);
   SE3 PoseOf(std::size_t lidar) const;
   bool Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::Vector3f* p_body);
+  void ReachTo(std::int64_t first_ns);
   Slot& SlotAt(std::int64_t t_ns);
   Slot* DiscreteSlotAt(std::int64_t stamp_ns);
   void CompletePassed();

@@ -15,7 +15,7 @@ namespace trajlo {
 class CeresBlocks {
  public:
   /// `callback` may be null.
-  explicit CeresBlocks(std::vector<SE3>* poses, ceres::EvaluationCallback* callback);
+  CeresBlocks(std::vector<SE3>* poses, ceres::EvaluationCallback* callback);
 
   /// On the two poses of segment k, with `kernel` if there is one.
   void AddRegistration(ceres::CostFunction* factor, ceres::LossFunction* kernel, int k);

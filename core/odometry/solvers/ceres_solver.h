@@ -13,7 +13,7 @@ namespace trajlo {
 /// The window as a Ceres problem: control poses are parameter blocks on SE3Manifold; each segment
 /// has one condensed registration block and at most one motion block, the first poses have the
 /// prior. An evaluation callback computes the registration of all segments in parallel. The problem
-/// lives on from solve to solve; its blocks read the window of the day.
+/// lives on from solve to solve; its blocks read the present window.
 ///
 /// Levenberg-Marquardt begins without damping, so that a step is one of Gauss-Newton unless it
 /// raises the cost.

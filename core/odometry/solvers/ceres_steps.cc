@@ -6,7 +6,7 @@
 namespace trajlo {
 namespace {
 
-/// From no damping to a step that is short enough, Levenberg-Marquardt needs about so many tries.
+/// From no damping to a step that is short enough, Levenberg-Marquardt needs about this many tries.
 constexpr int kMostRejectedSteps = 12;
 
 }  // namespace

@@ -36,7 +36,7 @@ class WindowSolver {
 
 std::unique_ptr<WindowSolver> MakeWindowSolver(const SolverOptions& options, ThreadPool* threads);
 
-/// Makes the solver of an odometry; for studies that put one of their own in place.
+/// Makes the solver of an odometry; for studies with solvers of their own.
 using WindowSolverFactory =
     std::function<std::unique_ptr<WindowSolver>(const SolverOptions&, ThreadPool*)>;
 

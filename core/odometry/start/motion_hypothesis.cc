@@ -7,8 +7,8 @@
 #include <map>
 
 #include "core/odometry/window/association.h"
+#include "core/odometry/window/points_to_world.h"
 #include "factors/plane_distances.h"
-#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -17,12 +17,12 @@ namespace {
 constexpr double kAgreement_m = 0.05;
 /// Planes whose normals have at least this cosine with a direction face it.
 constexpr double kFacing = 0.5;
-/// Of the points of planes that do not face a direction, so many (up to twice as many) hold all but
-/// the way along it.
+/// This many (up to twice as many) of the points on planes that do not face a direction hold all
+/// but the way along it.
 constexpr std::size_t kHolding = 2000;
-/// So many moments has the interval, and half as many its second half.
+/// The interval has this many moments, its second half half as many.
 constexpr int kMoments = 100;
-/// So many points of a moment, or of a place, count.
+/// At most this many points of a moment, or of a place, count.
 constexpr int kMostVotes = 8;
 
 int MomentOf(const RegistrationPoint& point) { return static_cast<int>(point.alpha * kMoments); }
@@ -39,14 +39,8 @@ MotionHypothesis::MotionHypothesis(const std::vector<SegmentPoint>& map_points,
                                    const Vector6d& tau, const MapPyramidOptions& map_options,
                                    ThreadPool* threads)
     : T_end_(se3::Exp(tau)) {
-  const SegmentMotion motion(SE3(), T_end_);
-  std::vector<Eigen::Vector3d> places;
-  places.reserve(map_points.size());
-  for (const SegmentPoint& point : map_points) {
-    places.push_back(motion.ToWorld(point.alpha, point.p_body_m.cast<double>()));
-  }
   MapPyramid map(map_options);
-  map.Insert(places);
+  map.Insert(PointsToWorld({SE3(), T_end_}, map_points));
   SegmentAssociation().Associate(second_half, lidar_origins_body_m, SE3(), T_end_, map, threads,
                                  &points_);
 }
@@ -104,9 +98,7 @@ std::vector<SegmentPoint> MotionHypothesis::TellingAlong(
   std::vector<SegmentPoint> telling, others;
   auto with_plane = points_.begin();
   for (const SegmentPoint& point : second_half) {
-    // Those that have a plane are in the same order.
-    const bool has_plane = with_plane != points_.end() && with_plane->alpha == point.alpha &&
-                           with_plane->p_body_m == point.p_body_m.cast<double>();
+    const bool has_plane = with_plane != points_.end() && IsSamePoint(*with_plane, point);
     (has_plane && !IsFacing(*with_plane, direction) ? others : telling).push_back(point);
     if (has_plane) ++with_plane;
   }

@@ -15,15 +15,15 @@ namespace trajlo {
 /// with it, and planes of that map for the points of its second half.
 class MotionHypothesis {
  public:
-  /// `tau` is the body's twist over the whole interval. The map is of `map_points`: the first half,
-  /// or the whole interval to know its surfaces.
+  /// `tau` is the body's twist over the whole interval. The map is made of `map_points`: the first
+  /// half, or the whole interval to know its surfaces.
   MotionHypothesis(const std::vector<SegmentPoint>& map_points,
                    const std::vector<SegmentPoint>& second_half,
                    const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const Vector6d& tau,
                    const MapPyramidOptions& map_options, ThreadPool* threads);
 
   RegistrationNormalEquations Linearize(const RegistrationNoise& noise) const;
-  /// The same, where planes that do not face `direction` (a unit vector in the world) say nothing
+  /// The same, but planes that do not face `direction` (a unit vector in the world) say nothing
   /// about the way along it. A road has thousands of points, and the noise of their normals holds a
   /// speed that the few points which face the way would correct.
   RegistrationNormalEquations LinearizeAlong(const Eigen::Vector3d& direction,
@@ -38,16 +38,16 @@ class MotionHypothesis {
   /// others say.
   int AgreeingAlong(const Eigen::Vector3d& direction) const;
   int FacingAlong(const Eigen::Vector3d& direction) const;
-  /// Of `second_half` (the one that was given at first), what may tell how far one has moved along
-  /// `direction`: all points but those of planes that do not face it. Of these it has a few, which
-  /// hold the rest of the motion.
+  /// The points of `second_half` (the one that the constructor was given) that may tell how far one
+  /// has moved along `direction`: all but those on planes that do not face it. A few of these
+  /// remain to hold the rest of the motion.
   std::vector<SegmentPoint> TellingAlong(const Eigen::Vector3d& direction,
                                          const std::vector<SegmentPoint>& second_half) const;
 
-  /// How many of AgreeingAlong() count by themselves. No moment and no place (a cube of `place_m`)
+  /// How many of AgreeingAlong() count as independent. No moment and no place (a cube of `place_m`)
   /// has more than a few: its points share an error, or are one thing. Where a scanner bounces, the
-  /// rings of two sweeps stand above each other behind it, and seem to be a wall that goes along. A
-  /// car may go along, too.
+  /// rings of two sweeps stand above each other behind it, and look like a wall that moves along.
+  /// So may a car.
   int VotesAlong(const Eigen::Vector3d& direction, double place_m) const;
 
  private:

@@ -19,13 +19,13 @@ using Cell = Eigen::Vector3i;
 constexpr double kCellShare = 1.0 / 20.0;
 constexpr double kMinCell_m = 0.25;
 constexpr double kMaxCell_m = 1.0;
-/// Points beyond so many median ranges are left out: a step of rotation moves them too far.
+/// Points beyond this many median ranges are left out: a step of rotation moves them too far.
 constexpr double kMaxRangeInMedians = 2.0;
 constexpr std::size_t kMaxSweepPoints = 300;
 /// Blocks of positions are 2^kTopLevel cells wide at first.
 constexpr int kTopLevel = 3;
-/// On each level blocks are dropped whose bound is by this share of the points below the best one,
-/// and those beyond so many.
+/// On each level, blocks are dropped if their bound is below the best one by more than this share
+/// of the points, and those beyond this many.
 constexpr double kHopeless = 0.3;
 constexpr std::size_t kMaxBlocks = 30000;
 /// Places nearer to each other than this are one.
@@ -211,7 +211,10 @@ class PlaceSearch {
     constexpr std::size_t kChunk = 256;
     threads_->ParallelFor((blocks->size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
       const std::size_t last = std::min(blocks->size(), (chunk + 1) * kChunk);
-      for (std::size_t i = chunk * kChunk; i < last; ++i) Score(level, &(*blocks)[i]);
+      for (std::size_t i = chunk * kChunk; i < last; ++i) {
+        Block& block = (*blocks)[i];
+        block.hits = occupancy_.Count(turned_[block.turned].cells, block.corner, level);
+      }
     });
     std::stable_sort(blocks->begin(), blocks->end(),
                      [](const Block& a, const Block& b) { return a.hits > b.hits; });
@@ -220,10 +223,6 @@ class PlaceSearch {
                                   [&](const Block& block) { return block.hits < least; });
     blocks->erase(end, blocks->end());
     if (blocks->size() > kMaxBlocks) blocks->resize(kMaxBlocks);
-  }
-
-  void Score(int level, Block* block) const {
-    block->hits = occupancy_.Count(turned_[block->turned].cells, block->corner, level);
   }
 
   static std::vector<Block> Halve(const std::vector<Block>& blocks, int level) {

@@ -4,21 +4,24 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/window/association.h"
+#include "core/odometry/window/points_to_world.h"
 #include "core/odometry/window/step_size.h"
 #include "factors/segment_linearizer.h"
-#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
 
-/// So many places are refined.
+/// At most this many places are refined.
 constexpr std::size_t kPlaces = 24;
 constexpr std::size_t kMaxPoints = 800;
-constexpr int kRigidRounds = 9;
-constexpr int kMovingRounds = 9;
+/// Of a refinement.
+constexpr int kRounds = 9;
 /// Holds what the points do not, as a share of their information.
 constexpr double kDamping = 1e-4;
 /// Places that the refinement brings nearer to each other than this are one.
@@ -38,8 +41,8 @@ constexpr double kDisagreement_m = 0.3;
 constexpr double kMinAgreement = 0.5;
 /// ... and of those that have a plane, near or far, ...
 constexpr double kMinPrecision = 0.6;
-/// ... so many times the points that a rival has, of those that only one of them has, which must be
-/// more than a few, ...
+/// ... this many times the points of a rival, among those that speak for one of the two alone, and
+/// this share of all points, ...
 constexpr double kMinRatio = 2.0;
 constexpr double kMinDisputed = 0.03;
 /// ... and in every direction this share of the information about translation.
@@ -56,36 +59,28 @@ class Hypothesis {
   void Place(const SE3& start, const RegistrationOptions& registration) {
     T_begin_ = start;
     Associate();
-    for (int round = 0; round < kRigidRounds; ++round) {
-      // 8, 8, 8, 4, 4, 4, 2, ... times the kernel.
-      const int coarse = std::max(1, 8 >> (round / 3));
-      if (!Step(coarse * registration.kernel_m, true, registration)) return;
-    }
+    Refine(8, true, registration);
   }
 
-  /// Refines the motion during the sweep, too: it was only found roughly.
-  void Move(const RegistrationOptions& registration) {
-    for (int round = 0; round < kMovingRounds; ++round) {
-      const int coarse = std::max(1, 4 >> (round / 3));
-      if (!Step(coarse * registration.kernel_m, false, registration)) return;
-    }
-  }
+  /// Refines the motion during the sweep as well, which was only known roughly.
+  void Move(const RegistrationOptions& registration) { Refine(4, false, registration); }
 
   /// Finds the points that speak for this place.
   void Judge() {
-    const SegmentMotion motion(T_begin_, T_begin_ * T_begin_end_);
-    found_.assign(sweep_.registration_points.size(), {});
-    // Those with a plane, in the order of all.
+    const SegmentMotion motion = Motion();
+    const std::vector<SegmentPoint>& all = sweep_.registration_points;
+    found_.assign(all.size(), {});
     std::size_t i = 0;
     for (const RegistrationPoint& point : points_) {
-      while (!IsSame(point, sweep_.registration_points[i])) ++i;
+      while (!IsSamePoint(point, all[i])) ++i;
       const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
-      const Eigen::Vector3d origin_world = motion.ToWorld(
-          point.alpha, sweep_.lidar_origins_body_m[sweep_.registration_points[i].lidar]);
-      found_[i].normal = point.normal_world;
-      found_[i].agrees = std::abs(point.DistanceToPlane(p_world)) < kAgreement_m &&
-                         !GoesThroughSurface(origin_world, p_world);
-      agreeing_ += found_[i++].agrees ? 1 : 0;
+      const Eigen::Vector3d origin_world =
+          motion.ToWorld(point.alpha, sweep_.lidar_origins_body_m[all[i].lidar]);
+      Found& found = found_[i++];
+      found.normal = point.normal_world;
+      found.agrees = std::abs(point.DistanceToPlane(p_world)) < kAgreement_m &&
+                     !GoesThroughSurface(origin_world, p_world);
+      agreeing_ += found.agrees ? 1 : 0;
     }
   }
 
@@ -106,26 +101,36 @@ class Hypothesis {
     return eigen.eigenvalues()[0] > kWeakShare * translation.trace();
   }
 
-  /// How many points speak for this place alone, and for `other` alone, of those that a plane of
-  /// either says cannot lie where the other has them.
-  void CountDisputed(const Hypothesis& other, int* mine, int* others) const {
-    *mine = *others = 0;
-    const SegmentMotion here(T_begin_, T_begin_ * T_begin_end_);
-    const SegmentMotion there(other.T_begin_, other.T_begin_ * other.T_begin_end_);
+  struct Disputed {
+    int mine = 0, rivals = 0;
+  };
+  /// How many points speak for this place alone, and for its rival alone; only those whose plane
+  /// says that they cannot lie where the other place has them.
+  Disputed DisputedWith(const Hypothesis& rival) const {
+    Disputed disputed;
+    const SegmentMotion here = Motion(), there = rival.Motion();
     for (std::size_t i = 0; i < found_.size(); ++i) {
+      const bool is_mine = found_[i].agrees;
+      if (is_mine == rival.found_[i].agrees) continue;
+      const Eigen::Vector3d& normal = (is_mine ? found_[i] : rival.found_[i]).normal;
       const SegmentPoint& point = sweep_.registration_points[i];
       const Eigen::Vector3d p = point.p_body_m.cast<double>();
       const Eigen::Vector3d way = there.ToWorld(point.alpha, p) - here.ToWorld(point.alpha, p);
-      const bool is_disputed =
-          (found_[i].agrees && std::abs(found_[i].normal.dot(way)) > kDisagreement_m) ||
-          (other.found_[i].agrees && std::abs(other.found_[i].normal.dot(way)) > kDisagreement_m);
-      if (!is_disputed) continue;
-      *mine += found_[i].agrees && !other.found_[i].agrees ? 1 : 0;
-      *others += other.found_[i].agrees && !found_[i].agrees ? 1 : 0;
+      const bool is_disputed = std::abs(normal.dot(way)) > kDisagreement_m;
+      (is_mine ? disputed.mine : disputed.rivals) += is_disputed ? 1 : 0;
     }
+    return disputed;
   }
 
  private:
+  struct Found {
+    bool agrees = false;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  };
+
+  SE3 T_end() const { return T_begin_ * T_begin_end_; }
+  SegmentMotion Motion() const { return {T_begin_, T_end()}; }
+
   bool GoesThroughSurface(const Eigen::Vector3d& origin, const Eigen::Vector3d& end) const {
     const double range_m = (end - origin).norm();
     const Eigen::Vector3d direction = (end - origin) / range_m;
@@ -140,16 +145,19 @@ class Hypothesis {
     return false;
   }
 
-  struct Found {
-    bool agrees = false;
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  };
+  /// The kernel is `widest` times that of `registration` at first, and halves every three rounds.
+  void Refine(int widest, bool is_rigid, RegistrationOptions registration) {
+    const double kernel_m = registration.kernel_m;
+    for (int round = 0; round < kRounds; ++round) {
+      registration.kernel_m = std::max(1, widest >> (round / 3)) * kernel_m;
+      if (!Step(is_rigid, MakeRegistrationNoise(registration))) return;
+    }
+  }
 
-  /// One step of Gauss-Newton, of the sweep as a whole or of its begin and its end.
-  bool Step(double kernel_m, bool is_rigid, RegistrationOptions registration) {
-    registration.kernel_m = kernel_m;
-    const RegistrationNormalEquations equations = LinearizeSegment(
-        points_, T_begin_, T_begin_ * T_begin_end_, MakeRegistrationNoise(registration));
+  /// One step of Gauss-Newton, of the sweep as a whole or of its start and its end.
+  bool Step(bool is_rigid, const RegistrationNoise& noise) {
+    const RegistrationNormalEquations equations =
+        LinearizeSegment(points_, T_begin_, T_end(), noise);
     Eigen::Matrix<double, 12, 6> A;
     A << Matrix6d::Identity(), se3::Adjoint(T_begin_end_.Inverse());
     information_ = A.transpose() * equations.H * A;
@@ -162,20 +170,16 @@ class Hypothesis {
       xi = -(equations.H + damping).ldlt().solve(equations.g);
     }
     if (!xi.allFinite()) return false;
-    const SE3 T_end = Plus(T_begin_ * T_begin_end_, xi.tail<6>());
+    const SE3 new_T_end = Plus(T_end(), xi.tail<6>());
     T_begin_ = Plus(T_begin_, xi.head<6>());
-    T_begin_end_ = T_begin_.Inverse() * T_end;
+    T_begin_end_ = T_begin_.Inverse() * new_T_end;
     Associate();
     return true;
   }
 
   void Associate() {
     association_.Associate(sweep_.registration_points, sweep_.lidar_origins_body_m, T_begin_,
-                           T_begin_ * T_begin_end_, map_, threads_, &points_);
-  }
-
-  static bool IsSame(const RegistrationPoint& a, const SegmentPoint& b) {
-    return a.p_body_m == b.p_body_m.cast<double>() && a.alpha == static_cast<double>(b.alpha);
+                           T_end(), map_, threads_, &points_);
   }
 
   const SegmentCloud& sweep_;
@@ -190,25 +194,15 @@ class Hypothesis {
   int agreeing_ = 0;
 };
 
-/// The sweep as a rigid cloud in the body frame at its begin.
-std::vector<Eigen::Vector3d> Rigid(const SegmentCloud& sweep, const Vector6d& tau) {
-  const SegmentMotion motion(SE3(), se3::Exp(tau));
-  std::vector<Eigen::Vector3d> points;
-  for (const SegmentPoint& point : sweep.registration_points) {
-    points.push_back(motion.ToWorld(point.alpha, point.p_body_m.cast<double>()));
-  }
-  return points;
-}
-
 bool IsClear(const Hypothesis& best, const std::vector<Hypothesis>& all, std::size_t points) {
   if (best.agreeing() < kMinAgreement * static_cast<double>(points)) return false;
   if (best.agreeing() < kMinPrecision * best.with_plane()) return false;
   if (!best.HoldsAllDirections()) return false;
   return std::all_of(all.begin(), all.end(), [&](const Hypothesis& rival) {
     if (&rival == &best || rival.IsAt(best)) return true;
-    int mine = 0, others = 0;
-    best.CountDisputed(rival, &mine, &others);
-    return mine > kMinRatio * others && mine > kMinDisputed * static_cast<double>(points);
+    const Hypothesis::Disputed disputed = best.DisputedWith(rival);
+    return disputed.mine > kMinRatio * disputed.rivals &&
+           disputed.mine > kMinDisputed * static_cast<double>(points);
   });
 }
 
@@ -222,8 +216,11 @@ std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d&
   SegmentCloud thin;
   thin.lidar_origins_body_m = sweep.lidar_origins_body_m;
   thin.registration_points = ChooseEvenly(sweep.registration_points, kMaxPoints);
+  // In the body frame at the start.
+  const std::vector<Eigen::Vector3d> rigid =
+      PointsToWorld({SE3(), se3::Exp(tau)}, thin.registration_points);
   std::vector<Hypothesis> all;
-  for (const SE3& place : FindPlaces(Rigid(thin, tau), map.finest(), region, kPlaces, threads)) {
+  for (const SE3& place : FindPlaces(rigid, map.finest(), region, kPlaces, threads)) {
     Hypothesis hypothesis(thin, tau, map, threads);
     hypothesis.Place(place, registration);
     const bool is_new = std::none_of(

@@ -17,16 +17,16 @@ struct SweepMotion {
   Vector6d tau = Vector6d::Zero();  ///< The body's twist over the sweep.
 };
 
-/// Finds where in the map a short sweep was measured, within `region`. `tau` is about the body's
-/// twist over the sweep; that of a sweep without duration is taken as it is.
+/// Finds where in the map a short sweep was measured, within `region`. `tau` is roughly the body's
+/// twist over the sweep; that of a sweep without duration is not refined.
 ///
 /// Places are looked for in cells of the map (FindPlaces), refined by registration to its planes,
 /// and judged against each other. A point speaks for a place if it lies on a plane there, and its
 /// ray goes through nothing that the map has. The place with the most such points is returned only
 /// if it is clear: half of all points must speak for it; most that have a plane must be on it; they
 /// must hold all directions; and of those that speak for it or a rival alone, two of three must
-/// speak for it. So a hall with two equal ends, a corridor and a scene that the map does not have
-/// give nothing.
+/// speak for it. So a hall with two equal ends, a corridor, and a scene that is not in the map give
+/// nothing.
 std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d& tau,
                                       const MapPyramid& map, const SearchRegion& region,
                                       const RegistrationOptions& registration, ThreadPool* threads);

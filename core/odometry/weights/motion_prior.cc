@@ -11,16 +11,16 @@ namespace {
 constexpr double kSumMemory_s = 0.1;
 /// T_l: in which the densities follow.
 constexpr double kLearning_s = 0.3;
-/// The largest step up, in units of what a rest makes a step down.
+/// The largest step up, as a multiple of a step down at rest.
 constexpr double kLargestScore = 8.0;
 /// The noise of the points is taken to be as small as this share of what is assumed, in squares.
 constexpr double kLeastScatter = 0.2;
-/// A density above this ties nothing any more.
+/// A density above this no longer ties anything.
 constexpr double kLargestDensity = 1e4;
-/// A component of which the points tell less than this share is left out.
+/// A component with less than this gain is left out.
 constexpr double kSmallestGain = 1e-3;
 
-/// The paper's term: the velocity of the segment before, as estimated, is taken for known.
+/// The paper's term: the estimated velocity of the segment before is taken as known.
 SmoothnessTerm PseudoVelocity(const Window& window, int k, const Vector6d& density) {
   const double duration_s = window.At(k).Duration_s();
   const double before_s = window.At(k - 1).Duration_s();
@@ -28,7 +28,7 @@ SmoothnessTerm PseudoVelocity(const Window& window, int k, const Vector6d& densi
   return {window.Velocity(k - 1) * duration_s, velocity.sqrt_information / duration_s};
 }
 
-/// z: what each component is in standard deviations; 0 where the points tell nothing.
+/// z: each component in standard deviations; 0 where the points tell nothing.
 Vector6d Normalized(const Innovation& innovation) {
   Vector6d z = Vector6d::Zero();
   for (int i = 0; i < 6; ++i) {

@@ -55,13 +55,16 @@ struct MotionPriorOptions {
 /// 1, and a sum of z that are independent is smaller in the same measure: v is the mean of z² over
 /// T_l, between 0.2 and 1. (Not beyond: a jerk makes z² large, too, and would hide itself. And not
 /// for rotation, where it brought nothing, and made runs at 35 rad/s too uncertain.)
-///   At rest, z is the noise of planes that hardly changes the estimate: u < 1, and q falls to its
+///
+/// At rest, z is the noise of planes that hardly changes the estimate: u < 1, and q falls to its
 /// floor. In constant acceleration z keeps its sign, s adds up, and q rises until the lag is within
 /// what q itself predicts. A jerk makes one z large: log q rises by up to 8 Δt / T_l in a window,
 /// and the poses of the window, which are still free, follow.
-///   It cannot confirm itself: a stiff prior makes the expected variance small in the same measure,
+///
+/// It cannot confirm itself: a stiff prior makes the expected variance small in the same measure,
 /// so the lag that it causes counts more. And nothing is learnt where the points tell nothing:
 /// there w is near 0.
+///
 /// Idea: R. Mehra, On the identification of variances and adaptive Kalman filtering, 1970.
 class MotionPrior {
  public:
@@ -70,8 +73,8 @@ class MotionPrior {
   /// [rho; theta]: m²/s³ and rad²/s³.
   const Vector6d& density() const { return density_; }
 
-  /// The factor between the squared errors of the poses and the covariances of their windows, in
-  /// the mean over T_l; 1 before there is evidence.
+  /// The factor between the squared errors of the poses and the covariances of their windows,
+  /// averaged over T_l; 1 before there is evidence.
   ///
   /// The noise of the points is set on the safe side, the motion is calmer than q at rest and at
   /// times wilder, and errors of planes move the map and the poses alike: so covariances are off by
@@ -83,7 +86,7 @@ class MotionPrior {
 
   /// Ties the velocities of the segments by the present densities.
   void Apply(Window* window) const { Apply(density_, window); }
-  /// The same, but of rotation hardly anything is foretold.
+  /// The same, but leaves rotation almost free.
   void UntieRotation(Window* window) const;
 
   /// Takes the newest innovation of a window that is believed; `duration_s` is that of the newest
@@ -91,7 +94,7 @@ class MotionPrior {
   void Learn(const Innovation& innovation, double duration_s);
 
   /// Takes an innovation that the densities say cannot be, and the points say is: raises them until
-  /// they foretell as much, the likeliest value by this innovation alone.
+  /// they would have predicted as much, the likeliest value by this innovation alone.
   void Follow(const Innovation& innovation);
 
  private:
@@ -100,7 +103,7 @@ class MotionPrior {
   MotionPriorOptions options_;
   Vector6d density_;
   Vector6d sum_ = Vector6d::Zero();  ///< s
-  /// u and z² of translation and of rotation, in the mean over T_l.
+  /// u and z² of translation and of rotation, averaged over T_l.
   Eigen::Vector2d surprise_ = Eigen::Vector2d::Ones();
   Eigen::Vector2d scatter_ = Eigen::Vector2d::Ones();
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include "core/options/describe.h"
 #include "factors/segment_linearizer.h"
 
@@ -36,6 +38,9 @@ struct RegistrationOptions {
 };
 
 /// What the factors take: errors that are shared make sigma larger.
-RegistrationNoise MakeRegistrationNoise(const RegistrationOptions& options);
+inline RegistrationNoise MakeRegistrationNoise(const RegistrationOptions& options) {
+  const double sigma_m = options.sigma_m * std::sqrt(options.points_per_error);
+  return {sigma_m, {options.kernel, options.kernel_m / sigma_m}};
+}
 
 }  // namespace trajlo

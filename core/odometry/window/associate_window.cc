@@ -15,7 +15,7 @@ int AssociateWindow(const MapPyramid& map, const StepSize& tolerance, ThreadPool
     std::size_t index;
   };
   std::vector<Chunk> chunks;
-  // The newest segment asks in cells that nobody has asked in: the longest work first.
+  // The newest segment first: most of its cells have not been asked before, which takes longest.
   for (int k = window->size() - 1; k >= 0; --k) {
     Segment& segment = window->At(k);
     const SegmentCloud& cloud = segment.cloud;

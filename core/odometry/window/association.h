@@ -15,6 +15,12 @@
 
 namespace trajlo {
 
+/// Whether `associated` is `point` with its plane. Points that have a plane are in the order of
+/// all.
+inline bool IsSamePoint(const RegistrationPoint& associated, const SegmentPoint& point) {
+  return associated.p_body_m == point.p_body_m.cast<double>() && associated.alpha == point.alpha;
+}
+
 /// The planes of one segment's points. A point keeps its plane until it leaves its cell of the map;
 /// a point without one asks again when the map has grown. Neither is asked while the segment moves
 /// less than a tolerance.

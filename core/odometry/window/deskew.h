@@ -9,7 +9,7 @@ namespace trajlo {
 /// What moves the points of a segment to one time.
 enum class Deskewing {
   kEstimated,  ///< The estimated trajectory, in every iteration anew: the paper's method.
-  kPredicted,  ///< Once the predicted motion, before the segment is estimated.
+  kPredicted,  ///< The predicted motion, once, before the segment is estimated.
 };
 
 /// Moves all points of a segment to its end by a constant twist, after which their alpha is 1:

@@ -19,8 +19,8 @@ void EnterMap(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end, T
     const std::size_t count = std::min(kChunk, points.size() - first);
     chunks[i].resize(count);
     PointsToWorld(motion, &points[first], count, chunks[i].data());
-    // Most of what is seen is in the map already, which several threads find out sooner than the
-    // insertion, which must keep the order.
+    // Most points are in the map already. Several threads find that out sooner than the insertion,
+    // which must keep the order.
     map->DropRefused(&chunks[i]);
   });
   std::vector<Eigen::Vector3d> wanted;

@@ -16,16 +16,16 @@ namespace {
 
 /// A smaller change is not worth a new linearisation of all segments.
 constexpr double kSmallChange = 0.1;
-/// The axes stay while one of them has no more information than so many times the least.
+/// The axes stay while one of them has no more information than this multiple of the least.
 constexpr double kNearlyLeast = 1.25;
-/// About so many points are asked: of a segment, for the axes; of an axis, for its width.
+/// About this many points are asked: of a segment, for the axes; of an axis, for its width.
 constexpr std::size_t kAskedOfSegment = 128;
 constexpr std::size_t kAskedOfAxis = 128;
 /// Fewer points have no scatter.
 constexpr std::size_t kFewest = 5;
 constexpr double kWidestInKernels = 3.0;
 
-/// Of some points: sum w n nᵀ.
+/// sum w n nᵀ, over some of the points.
 Eigen::Matrix3d InformationOfNormals(const Window& window) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Segment& segment : window.segments) {
@@ -42,8 +42,8 @@ void ForgetLinearizations(Window* window) {
   for (Segment& segment : window->segments) segment.linearization.reset();
 }
 
-/// Turns the axes to the principal ones, if the direction with the least information is not among
-/// them any more.
+/// Turns the axes to the principal ones, if the direction with the least information is no longer
+/// among them.
 void UpdateAxes(Window* window) {
   const Eigen::Matrix3d information = InformationOfNormals(*window);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
@@ -58,13 +58,11 @@ void UpdateAxes(Window* window) {
 /// A distance in the units of the kernel, and the weight with which it counts.
 using WeighedDistance = std::pair<double, double>;
 
-/// Of some points of each axis.
+/// Those of some points of each axis.
 std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window) {
   std::array<std::size_t, 3> stride = {};
   for (const Segment& segment : window.segments) {
-    for (const RegistrationPoint& point : segment.points) {
-      ++stride[static_cast<std::size_t>(point.axis)];
-    }
+    for (const RegistrationPoint& point : segment.points) ++stride[point.axis];
   }
   for (std::size_t& count : stride) count = 1 + count / kAskedOfAxis;
   std::array<std::size_t, 3> to_pass = {};
@@ -73,11 +71,12 @@ std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window
     const Segment& segment = window.At(k);
     const SegmentMotion motion(window.Pose(k), segment.T_world_end);
     for (const RegistrationPoint& point : segment.points) {
-      const auto axis = static_cast<std::size_t>(point.axis);
-      if (to_pass[axis]-- > 0) continue;
-      to_pass[axis] = stride[axis] - 1;
+      std::size_t& passes = to_pass[point.axis];
+      if (passes-- > 0) continue;
+      passes = stride[point.axis] - 1;
       const double distance_m = point.DistanceToPlane(motion.ToWorld(point.alpha, point.p_body_m));
-      distances[axis].emplace_back(std::sqrt(point.weight) * std::abs(distance_m), point.weight);
+      distances[point.axis].emplace_back(std::sqrt(point.weight) * std::abs(distance_m),
+                                         point.weight);
     }
   }
   return distances;

@@ -7,7 +7,7 @@
 namespace trajlo {
 
 /// Makes the robust kernels of a window as wide as its points scatter about their planes, for each
-/// axis a by those points that hold it:
+/// axis a according to the points that hold it:
 ///
 ///   width_a = kernel_in_spreads · 1.4826 median |sqrt(weight_i) (n_iᵀx_i - d_i)|,
 ///
@@ -22,7 +22,7 @@ namespace trajlo {
 /// Window::kernel_axes. For a newest segment that is predicted badly, see GraduatedKernel.
 void FitKernel(const RegistrationOptions& options, Window* window);
 
-/// Tells each point which of the axes (columns) its normal is nearest to.
+/// Notes in each point which of the axes (columns) its normal is nearest to.
 void AssignAxes(const Eigen::Matrix3d& axes_world, std::vector<RegistrationPoint>* points);
 
 }  // namespace trajlo

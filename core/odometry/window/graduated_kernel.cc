@@ -13,7 +13,7 @@ constexpr double kStandardDeviations = 3.0;
 constexpr double kShrink = 0.25;
 /// Where f of most points is below this, the kernel itself reaches far enough.
 constexpr double kSmallest = 1.0;
-/// About so many are asked.
+/// About this many points are asked.
 constexpr std::size_t kAsked = 128;
 
 }  // namespace

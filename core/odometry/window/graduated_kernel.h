@@ -10,10 +10,10 @@ namespace trajlo {
 /// Graduated non-convexity for a window whose newest pose may be far off: after a fast turn, or
 /// where nothing was seen for a while.
 ///
-/// The robust kernel takes a point for an outlier that is 0.1 m from its plane. If the prediction
+/// The robust kernel takes a point that is 0.1 m from its plane for an outlier. If the prediction
 /// itself is off by more, the right planes are outliers, and the window settles on wrong ones. So
-/// the kernel of each point starts as wide as the prediction may be off there, which its covariance
-/// P says, and narrows from round to round:
+/// the kernel of each point starts as wide as the prediction may be off there, according to its
+/// covariance P, and narrows from round to round:
 ///
 ///   f = (3² / 4^round) J P Jᵀ / kernel²,   weight ← weight coarseness³ / (1 + f),
 ///
@@ -30,10 +30,10 @@ class GraduatedKernel {
   /// off by less than `kernel_m` is good.
   GraduatedKernel(const Window& window, double kernel_m);
 
-  /// Widens the kernels of the newest segment's points for one round; false if most need it
-  /// no more.
+  /// Widens the kernels of the newest segment's points for one round; false if most no longer need
+  /// it.
   bool Widen(Segment* newest);
-  /// Takes it back.
+  /// Undoes that.
   void Restore(Segment* newest) const;
 
  private:

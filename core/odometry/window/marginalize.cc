@@ -16,8 +16,8 @@ int TouchedPoses(const Window& window) {
   return std::max(is_tied ? 3 : 2, window.prior.poses());
 }
 
-/// The segment that becomes the oldest: what tied it to the one before is in the prior now, unless
-/// it was a velocity taken for known.
+/// For the segment that becomes the oldest: what tied it to the one before is in the prior now,
+/// unless that was a velocity taken as known.
 void Untie(const Vector6d& velocity_before, Segment* segment) {
   if (auto* known = std::get_if<SmoothnessTerm>(&segment->motion)) {
     known->tau_expected = velocity_before * segment->Duration_s();
@@ -32,9 +32,7 @@ void Untie(const Vector6d& velocity_before, Segment* segment) {
 MarginalizationPrior PriorWithoutFirstPose(const Window& window,
                                            const MarginalizationOptions& options) {
   const std::vector<SE3> poses = window.Poses();
-  if (!options.enabled) {
-    return AnchorOf(poses[1]);
-  }
+  if (!options.enabled) return AnchorOf(poses[1]);
   const int touched = TouchedPoses(window);
   WindowNormalEquations terms;
   terms.SetZero(touched);

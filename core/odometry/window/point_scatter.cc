@@ -14,7 +14,7 @@ namespace {
 
 /// Fewer points have no scatter.
 constexpr std::size_t kFewest = 20;
-/// Of each segment about so many are asked.
+/// About this many points of each segment are asked.
 constexpr std::size_t kAsked = 128;
 
 }  // namespace

@@ -10,9 +10,8 @@ namespace trajlo {
 ///
 ///   1.4826 median_i |nᵀx_i - d_i|
 ///
-/// (1.4826 median is the standard deviation of normal noise: P. Huber, Robust Statistics, 1981.)
 /// The median hardly feels one segment in five that is predicted badly. Zero where fewer than 20
-/// points are asked, which tell nothing.
+/// points are asked, too few to tell.
 double PointScatter(const Window& window);
 
 }  // namespace trajlo

@@ -36,4 +36,11 @@ void PointsToWorld(const SegmentMotion& motion, const SegmentPoint* points, std:
   }
 }
 
+std::vector<Eigen::Vector3d> PointsToWorld(const SegmentMotion& motion,
+                                           const std::vector<SegmentPoint>& points) {
+  std::vector<Eigen::Vector3d> places_world(points.size());
+  PointsToWorld(motion, points.data(), points.size(), places_world.data());
+  return places_world;
+}
+
 }  // namespace trajlo

@@ -8,8 +8,7 @@
 namespace trajlo {
 namespace {
 
-/// How well the velocity at the begin of a window is known, by which only its first segment is
-/// held.
+/// How well the velocity at the start of a window is known. It holds only the first segment.
 constexpr double kBeginVelocitySigma_m_s = 3.0;
 constexpr double kBeginVelocitySigma_rad_s = 3.0;
 

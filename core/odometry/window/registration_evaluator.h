@@ -11,8 +11,8 @@ namespace trajlo {
 
 /// Evaluates the registration of all segments, in parallel over fixed chunks of points whose sums
 /// are added in order: the same bits for any number of threads. A segment that is nearer than the
-/// tolerance to where it was linearised is not evaluated again, but shifted. When a segment comes,
-/// most of the window stands nearly still, and only the newest segments are evaluated.
+/// tolerance to where it was linearised is not evaluated again, but shifted. When a segment is
+/// added, most of the window hardly moves, and only the newest segments are evaluated.
 class RegistrationEvaluator {
  public:
   explicit RegistrationEvaluator(ThreadPool* threads, const StepSize& tolerance = {})

@@ -35,22 +35,21 @@ std::size_t GroupOf(const Eigen::Vector3d& x_world) {
 /// Four points, with a vector of lanes for each.
 struct PointVectors {
   Lane4 y[kLanes];                            ///< [p0; 1]
-  Lane4 j_head[kLanes], j_tail[kLanes];       ///< j = [n0; p0 x n0], of six
+  Lane4 j_head[kLanes], j_tail[kLanes] = {};  ///< j = [n0; p0 x n0], of six
   std::array<Eigen::Vector3d, kLanes> world;  ///< Their places.
 
   PointVectors(const LocatedPoints& at, const SegmentMotion& motion)
-      : y{at.p0.x, at.p0.y, at.p0.z, Broadcast<Lane4>(1.0)} {
+      : y{at.p0.x, at.p0.y, at.p0.z, Broadcast<Lane4>(1.0)}, j_head{at.n0.x, at.n0.y, at.n0.z} {
     const Vector3<Lane4> moment = lanes::Cross(at.p0, at.n0);
+    j_head[3] = moment.x;
+    j_tail[0] = moment.y;
+    j_tail[1] = moment.z;
     const Vector3<Lane4> x =
         lanes::Rotate(motion.R_begin, at.p0) + Broadcast3<Lane4>(motion.t_begin);
     for (std::size_t i = 0; i < kLanes; ++i) world[i] = {x.x[i], x.y[i], x.z[i]};
-    const Lane4 head[] = {at.n0.x, at.n0.y, at.n0.z, moment.x};
-    const Lane4 tail[] = {moment.y, moment.z, Lane4{}, Lane4{}};
-    std::copy_n(head, kLanes, j_head);
-    std::copy_n(tail, kLanes, j_tail);
-    lanes::Transpose(&y[0], &y[1], &y[2], &y[3]);
-    lanes::Transpose(&j_head[0], &j_head[1], &j_head[2], &j_head[3]);
-    lanes::Transpose(&j_tail[0], &j_tail[1], &j_tail[2], &j_tail[3]);
+    for (Lane4* rows : {y, j_head, j_tail}) {
+      lanes::Transpose(&rows[0], &rows[1], &rows[2], &rows[3]);
+    }
   }
 };
 

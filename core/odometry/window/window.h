@@ -31,7 +31,7 @@ struct Segment {
   MotionTerm motion;
   /// The registration around the present poses: to first order in the last step.
   RegistrationNormalEquations registration;
-  /// What `registration` comes from; nothing where `points` are others now.
+  /// What `registration` comes from; empty once `points` have changed.
   std::optional<LinearizedRegistration> linearization;
   /// The part of the information of the registration that comes from the noise of normals.
   SpuriousInformation spurious;
@@ -41,7 +41,7 @@ struct Segment {
   double Duration_s() const { return cloud.Duration_s(); }
 };
 
-/// The sliding window: K segments and their K+1 control poses, and what is left of those before.
+/// The sliding window: K segments and their K+1 control poses, and what is left of earlier ones.
 ///
 ///   E = sum_k registration_k(T_{k-1}, T_k) + sum_k motion_k + prior(T_0, ...)      (paper eq. 8)
 struct Window {
@@ -54,10 +54,10 @@ struct Window {
   /// Columns: the directions with a kernel each. RegistrationPoint::axis is the one that a normal
   /// is nearest to; see FitKernel.
   Eigen::Matrix3d kernel_axes = Eigen::Matrix3d::Identity();
-  /// Velocity at the begin of a window that has no segments yet, [rho; theta] per second, body
+  /// Velocity at the start of a window that has no segments yet, [rho; theta] per second, body
   /// frame.
   Vector6d begin_velocity = Vector6d::Zero();
-  /// False: the last solve was no success, and the poses are predictions.
+  /// False: the last solve failed, and the poses are predictions.
   bool is_believed = true;
 
   int size() const { return static_cast<int>(segments.size()); }
@@ -76,7 +76,7 @@ struct Window {
     T_world_begin = poses.front();
     for (std::size_t k = 0; k < segments.size(); ++k) segments[k].T_world_end = poses[k + 1];
   }
-  /// The mean twist over segment k, [rho; theta] per second, in the body frame at its begin.
+  /// The mean twist over segment k, [rho; theta] per second, in the body frame at its start.
   Vector6d Velocity(int k) const { return Minus(Pose(k + 1), Pose(k)) / At(k).Duration_s(); }
   Vector6d EndVelocity() const { return segments.empty() ? begin_velocity : Velocity(size() - 1); }
 };

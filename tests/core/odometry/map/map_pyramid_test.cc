@@ -23,6 +23,12 @@ MapPyramid MakeMap(const PlaneFitOptions& plane, const std::vector<Eigen::Vector
   return map;
 }
 
+Plane PlaneAt(const MapPyramid& map, const PlaneQuery& query) {
+  Plane plane;
+  map.FindPlanes(&query, 1, &plane);
+  return plane;
+}
+
 /// from, from + step, ... below `to`.
 std::vector<double> Steps(double from, double to, double step) {
   std::vector<double> steps;
@@ -45,12 +51,12 @@ TEST(MapPyramid, PrefersAWideThinPlaneForItsNormal) {
   double tilt_wide = 0.0, tilt_fine = 0.0;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d query = random.PlaceIn({2, 2, 0}) + 0.2 * Eigen::Vector3d::UnitZ();
-    Plane plane = wide.FindPlane({query, ray});
+    Plane plane = PlaneAt(wide, {query, ray});
     ASSERT_TRUE(plane.exists());
-    EXPECT_GT(plane.scale, 1.0);
-    EXPECT_GT(plane.weight, 0.5);  // Not divided by the ratio of its level.
+    EXPECT_EQ(plane.coarseness, 1.0);
+    EXPECT_GT(plane.weight, 0.5);
     tilt_wide += plane.normal_world.head<2>().norm();
-    plane = fine.FindPlane({query, ray});
+    plane = PlaneAt(fine, {query, ray});
     ASSERT_TRUE(plane.exists());
     tilt_fine += plane.normal_world.head<2>().norm();
   }
@@ -66,11 +72,11 @@ TEST(MapPyramid, TakesTheFinePlaneWhereTheWideOneIsNotThin) {
     }
   }
   const MapPyramid map = MakeMap({}, stairs);
-  Plane plane = map.FindPlane({{0.25, 0.0, 0.01}, {0.8F, 0.0F, -0.6F}});
+  Plane plane = PlaneAt(map, {{0.25, 0.0, 0.01}, {0.8F, 0.0F, -0.6F}});
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
   EXPECT_NEAR(plane.offset_m * plane.normal_world.z(), 0.0, 1e-6);
-  EXPECT_LT(plane.scale, 4.0);
+  EXPECT_LT(plane.coarseness, 4.0);
 }
 
 TEST(MapPyramid, AWallThatScattersKeepsItsNormal) {
@@ -86,7 +92,7 @@ TEST(MapPyramid, AWallThatScattersKeepsItsNormal) {
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d query =
         random.PlaceIn({0, 3, 3}) + (i % 2 == 0 ? 0.2 : -0.2) * Eigen::Vector3d::UnitX();
-    const Plane plane = map.FindPlane({query, {1.0F, 0.0F, 0.0F}});
+    const Plane plane = PlaneAt(map, {query, {1.0F, 0.0F, 0.0F}});
     right += plane.exists() && std::abs(plane.normal_world.x()) > 0.95 ? 1 : 0;
   }
   EXPECT_GT(right, 75);  // 59 if thin planes were preferred for being thin.
@@ -107,7 +113,7 @@ TEST(MapPyramid, PlanesThatNoiseMakesAreNoneOnceTheNoiseIsKnown) {
     for (const double y : Steps(-3.0, 3.0, 0.05)) {
       const Eigen::Vector3d query(5.0 + random.Gaussian(kScatter_m), y, 0.05);
       // From a height at which the ray does not graze the plane.
-      const Plane plane = map.FindPlane({query, {1.0F, 0.0F, -0.3F}});
+      const Plane plane = PlaneAt(map, {query, {1.0F, 0.0F, -0.3F}});
       level += plane.exists() && std::abs(plane.normal_world.z()) > 0.9 ? 1 : 0;
     }
     return level;
@@ -126,7 +132,7 @@ TEST(MapPyramid, APlaneThatIsWideBesideTheNoiseStays) {
   MapPyramid map = MakeMap({}, ground);
   map.SetScatter(0.08);
   for (const double y : Steps(-2.0, 2.0, 0.1)) {
-    const Plane plane = map.FindPlane({{0.0, y, 0.0}, {1.0F, 0.0F, -1.0F}});
+    const Plane plane = PlaneAt(map, {{0.0, y, 0.0}, {1.0F, 0.0F, -1.0F}});
     ASSERT_TRUE(plane.exists());
     EXPECT_GT(std::abs(plane.normal_world.z()), 0.9);
   }
@@ -143,13 +149,12 @@ TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
   }
   const MapPyramid map = MakeMap({}, wall_then_post);
   const Eigen::Vector3f ray(1.0, 0.0, 0.0);
-  Plane plane = map.FindPlane({{4.66, 1.6, 1.0}, ray});
+  Plane plane = PlaneAt(map, {{4.66, 1.6, 1.0}, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 4.65, 0.01);
-  plane = map.FindPlane({{5.01, -2.0, 1.0}, ray});
+  plane = PlaneAt(map, {{5.01, -2.0, 1.0}, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(plane.offset_m * plane.normal_world.x(), 5.0, 1e-6);
-  EXPECT_GT(plane.scale, 1.0);
 }
 
 TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
@@ -169,13 +174,13 @@ TEST(MapPyramid, PassesOverAPlaneAlongTheRayWhereThereIsAnother) {
   const MapPyramid map = MakeMap({}, points);
   const Eigen::Vector3d query(5.15, 0.0, 0.0);
   const Eigen::Vector3f ray(1.0, 0.0, 0.0);
-  Plane plane = map.FindPlane({query, ray});
+  Plane plane = PlaneAt(map, {query, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_GT(std::abs(plane.normal_world.x()), 0.9);
   PlaneFitOptions options;
   options.min_incidence_sine = 0.0;
   options.max_wide_flatness = 0.0;
-  plane = MakeMap(options, points).FindPlane({query, ray});
+  plane = PlaneAt(MakeMap(options, points), {query, ray});
   ASSERT_TRUE(plane.exists());
   EXPECT_GT(std::abs(plane.normal_world.z()), 0.9);
 }
@@ -186,10 +191,10 @@ TEST(MapPyramid, TakesAPlaneAlongTheRayWhereThereIsNoOther) {
     for (const double y : Steps(-1.0, 1.0, 0.05)) ground.emplace_back(x, y, 0.0);
   }
   const MapPyramid map = MakeMap({}, ground);
-  Plane plane = map.FindPlane({{0, 0, 0}, {0.999F, 0.0F, -0.0447F}});
+  Plane plane = PlaneAt(map, {{0, 0, 0}, {0.999F, 0.0F, -0.0447F}});
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
-  EXPECT_EQ(plane.scale, 1.0);
+  EXPECT_EQ(plane.coarseness, 1.0);
 }
 
 }  // namespace
