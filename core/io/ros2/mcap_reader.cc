@@ -31,14 +31,20 @@ bool HasEndMark(const RandomAccessFile& file) {
 McapReader::McapReader(const std::filesystem::path& path, const std::filesystem::path& shown)
     : shown_(shown.empty() ? path : shown) {
   const auto file = OpenMcap(path, shown_);
-  has_end_mark_ = HasEndMark(*file);
   index_ = ReadMcapIndex(file, shown_);
   if (topics().empty()) {
     throw InputError(shown_,
                      "no channel is in the " + std::to_string(file->size()) + " bytes of the file",
                      "The recording was empty, or was cut off before the first message.");
   }
-  stream_ = std::make_unique<McapStream>(file, shown_, index_.chunk_offsets, &report_);
+  report_ = std::move(index_.scan);
+  if (!HasEndMark(*file) && !report_.damaged) {
+    report_.warnings.push_back(shown_.string() +
+                               ": the end of the file is cut off; all messages are there, only its "
+                               "index is not");
+  }
+  stream_ = std::make_unique<McapStream>(file, shown_, index_.chunk_offsets,
+                                         index_.was_scanned ? &again_ : &report_);
   selected_.assign(topics().size(), true);
   met_.assign(topics().size(), 0);
 }
@@ -86,11 +92,6 @@ void McapReader::Finish() {
     report_.warnings.push_back(shown_.string() + ": the file lists " + std::to_string(listed) +
                                " messages of the topics that are read, " + std::to_string(met) +
                                " were found");
-  }
-  if (!has_end_mark_ && !report_.damaged) {
-    report_.warnings.push_back(shown_.string() +
-                               ": the end of the file is cut off; all messages are there, only its "
-                               "index is not");
   }
   if (not_unpacked_ > 0) {
     report_.warnings.push_back(shown_.string() + ": " + std::to_string(not_unpacked_) +

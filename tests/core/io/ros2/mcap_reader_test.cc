@@ -129,6 +129,22 @@ TEST(McapReader, AFileThatIsCutBehindItsMessagesLosesNothingAndSaysSo) {
   }
 }
 
+/// A look at the first messages says it, too.
+TEST(McapReader, AFileThatIsCutSaysSoBeforeItsMessagesAreReadAndNotTwice) {
+  const TempFolder folder;
+  const std::string whole = testing::ReadFile(Fixture("zstd.mcap"));
+  const std::size_t data_end = FindDataEnd(whole);
+  for (const std::size_t size : {data_end - 100, data_end, whole.size() - 1}) {
+    McapReader reader(folder.Write("cut.mcap", whole.substr(0, size)));
+    const MessageReport before = reader.report();
+    EXPECT_EQ(before.damaged, size <= data_end) << size;
+    EXPECT_THAT(before.warnings, ::testing::SizeIs(1)) << size;
+    ReadAll(&reader);
+    EXPECT_EQ(reader.report().warnings, before.warnings) << size;
+    EXPECT_EQ(reader.report().bytes_lost, before.bytes_lost) << size;
+  }
+}
+
 TEST(McapReader, AFileThatIsCompleteButHasNoSummaryIsNotDamaged) {
   const TempFolder folder;
   const std::string whole = testing::ReadFile(Fixture("none.mcap"));
