@@ -14,6 +14,7 @@ from trajlo_batch.plan import DONE
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401
 from trajlo_report.files import WriteError
+from trajlo_report.names import counted
 
 
 def add_work_arguments(parser, run_name):
@@ -86,8 +87,8 @@ def say_missing(suite, missing):
         return
     for paths, names in alike(missing).items():
         print(f"{', '.join(names)}: no data; looked for {', '.join(paths)}", file=sys.stderr)
-    print(f"{len(missing)} of {len(suite.sequences)} sequences have no data. --data or "
-          f"TRAJLO_DATASETS names the folder that they are below. {suite.needs}".rstrip(),
+    print(f"No data for {len(missing)} of {counted(len(suite.sequences), 'sequence')}. --data or "
+          f"TRAJLO_DATASETS names the folder that holds them. {suite.needs}".rstrip(),
           file=sys.stderr)
     helper = ROOT / "scripts" / "datasets" / suite.name
     if helper.is_file():

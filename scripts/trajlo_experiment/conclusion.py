@@ -9,6 +9,7 @@ import yaml
 
 from trajlo_experiment import analysis
 from trajlo_experiment.findings import level_text
+from trajlo_report import names
 
 
 def setting_text(findings, row):
@@ -101,7 +102,7 @@ def ratio_of(levels):
 
 
 def of_runs(level):
-    return f"{level.failed} of {level.runs} runs failed with {level.text}"
+    return f"{level.failed} of {names.counted(level.runs, 'run')} failed with {level.text}"
 
 
 def about_factors(findings):
@@ -177,4 +178,4 @@ def caution(findings):
                 "intervals are given, and small differences may be chance.")
     groups = [group for group, _ in findings.reference.errors]
     seeds = min(map(groups.count, groups))
-    return f"With {seeds} seeds per scenario the intervals are rough." if seeds < 5 else ""
+    return f"With {names.counted(seeds, 'seed')} per scenario the intervals are rough." if seeds < 5 else ""

@@ -72,6 +72,6 @@ def render(template, **values):
         loader=jinja2.PackageLoader("trajlo_report"), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.ChainableUndefined)
     environment.filters.update(number=number, setting=setting, data_uri=data_uri, compact_uri=compact_uri,
-                               title=names.title)
+                               title=names.title, counted=names.counted)
     return environment.get_template(template).render(theme=theme, decimals_of=names.decimals_of,
                                                       **values)

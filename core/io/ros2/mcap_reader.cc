@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/ros2/unpack.h"
 
 namespace trajlo {
@@ -89,13 +90,14 @@ void McapReader::Finish() {
   }
   if (met < listed) {
     report_.damaged = true;
-    report_.warnings.push_back(shown_.string() + ": the file lists " + std::to_string(listed) +
-                               " messages of the topics that are read, " + std::to_string(met) +
-                               " were found");
+    report_.warnings.push_back(shown_.string() + ": the file lists " + CountOf(listed, "message") +
+                               " of the topics that are read, " + std::to_string(met) +
+                               (met == 1 ? " was found" : " were found"));
   }
   if (not_unpacked_ > 0) {
-    report_.warnings.push_back(shown_.string() + ": " + std::to_string(not_unpacked_) +
-                               " messages are broken where they are compressed");
+    report_.warnings.push_back(shown_.string() + ": " +
+                               CountOf(not_unpacked_, "message is", "messages are") +
+                               " broken where compressed");
   }
 }
 

@@ -114,7 +114,7 @@ TEST(OusterSweeps, TellOfLostRepeatedAndLatePackets) {
   EXPECT_EQ(all.sweeps[2].table.count, 32 * PointsOfPacket());
   EXPECT_THAT(all.Warnings(), HasSubstr("ouster:7502: 32 columns of whole sweeps never came"));
   EXPECT_THAT(all.Warnings(), HasSubstr("ouster:7502: 16 columns came twice"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("ouster:7502: 1 packets came too late"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("ouster:7502: 1 packet came too late"));
   EXPECT_FALSE(all.report.damaged);
 }
 
@@ -149,8 +149,8 @@ TEST(OusterSweeps, LeaveOutColumnsThatAreBrokenAndPacketsOfAnotherSize) {
   EXPECT_LT(all.sweeps[1].table.count, PointsOfPacket());
   EXPECT_TRUE(all.report.damaged);
   EXPECT_THAT(all.Warnings(), HasSubstr("2 columns have an impossible number or time"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("1 datagrams have another size"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("udp:9999: 1 datagrams are no lidar packets"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("1 datagram has another size"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("udp:9999: 1 datagram is no lidar packet"));
 }
 
 TEST(OusterSweeps, OfDualReturnsKeepBothOrTheFirst) {

@@ -100,7 +100,7 @@ TEST(PacketDamage, MissingFragmentsAreCounted) {
   }
   const Sweeps all = ReadSweeps(folder.Write("lost.pcap", bytes));
   EXPECT_TRUE(all.report.damaged);
-  EXPECT_THAT(all.Warnings(), HasSubstr("1 packets lack IP fragments"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("1 packet lacks IP fragments"));
 }
 
 TEST(PacketDamage, PacketsThatContradictThemselvesAreLeftOut) {
