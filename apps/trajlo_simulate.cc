@@ -65,9 +65,11 @@ constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
       everything that --set can change, with its value
   trajlo_simulate hall_os1_16 -o noisy --set lidar.range_sigma_m=0.05 --set motion.speed_mps=5
       `lidar.` is every LiDAR of the rig, `lidar0.` the first
-  trajlo_simulate hall_os1_16 -o again --set motion.kind=replay,motion.replay_file=run.tum
-      flies a trajectory of your own through the hall
+  trajlo_simulate hall_os1_16 -o again --duration_s=10 \
+      --set motion.kind=replay,motion.replay_file=run.tum
+      flies the first 10 s of your own trajectory through the hall
   trajlo_simulate hall_os1_16 -o broken --set faults.dropped_scan_fraction=0.05
+      with one of 20 scans missing
   trajlo_simulate hall_os1_16 -o bagged --format=bag --bag_compression=lz4
       bagged/recording.bag in place of the scans, with the truth on /truth
 
