@@ -28,6 +28,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation, Slerp
 
 from trajlo_report import command_line, files
+from trajlo_report.names import counted
 
 PARTS = {"pose": slice(0, 6), "translation": slice(0, 3), "rotation": slice(3, 6)}
 STEP_S = 0.05
@@ -126,7 +127,7 @@ def interval(values):
 
 def print_stretches(every, moments, ratios, errors):
     count = errors.shape[1]
-    print(f"{count} runs; ratio of mean NEES to its expected value")
+    print(f"{counted(count, 'run')}; ratio of mean NEES to its expected value")
     print("  until s" + "".join(f"{part:>13}" for part in PARTS) + "   rms m  rms deg")
     ends = np.ceil(moments / every - 1e-9) * every
     for end in np.unique(ends):

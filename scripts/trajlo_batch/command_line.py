@@ -12,7 +12,8 @@ from trajlo_batch import results
 from trajlo_batch.places import BUILD, ROOT, WORK, Places
 from trajlo_batch.plan import DONE
 from trajlo_batch.yaml_lines import SuiteError
-from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401
+from trajlo_report.command_line import (  # noqa: F401
+    Parser, positive, sentence, unless_unread)
 from trajlo_report.files import WriteError
 from trajlo_report.names import counted
 
@@ -21,10 +22,13 @@ def add_work_arguments(parser, run_name):
     """Where to work, on what, and how; `run_name` says how users name a run."""
     parser.add_argument("-j", "--jobs", type=positive, default=len(os.sched_getaffinity(0)),
                         help="cores to use, with --slurm jobs at a time; default: all cores")
-    parser.add_argument("--output", type=pathlib.Path, help="default: runs/<name of the file>")
+    parser.add_argument("--output", type=pathlib.Path,
+                        help="default: the name of the file, below $TRAJLO_RUNS or else runs/ of "
+                        "the project (of an installation: of the current folder)")
     parser.add_argument("--data", type=pathlib.Path,
                         default=os.environ.get("TRAJLO_DATASETS", WORK / "data"),
-                        help="the folder of data sets; default: $TRAJLO_DATASETS, else data/")
+                        help="the folder of data sets; default: $TRAJLO_DATASETS, else data/ "
+                        "beside runs/")
     add_build_argument(parser)
     parser.add_argument("--list", action="store_true", help="show the runs and stop")
     parser.add_argument("--command", metavar=run_name.upper(),
@@ -114,7 +118,7 @@ def guarded(parser, work, how_to_go_on="the same command goes on where this one 
     signal.signal(signal.SIGTERM, interrupt)
     arguments = parser.parse_args()
     try:
-        return work(arguments)
+        return unless_unread(work, arguments)
     except SuiteError as error:
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 1
