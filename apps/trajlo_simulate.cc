@@ -88,7 +88,7 @@ Flags:
   -h, --help, --version
 
 Exit codes: 0 done, 1 wrong usage, 5 output not writable, 6 out of memory or a defect of the program,
-130 interrupted; what was simulated until then is a shorter recording.
+130 interrupted; what was simulated so far is a shorter recording.
 )";
 
 /// `key=value,key=value`. A piece without '=' belongs to the value before it, which lets a value
@@ -247,7 +247,7 @@ bool Write(const trajlo::simulation::Simulator& simulator,
   if (!is_whole) {
     std::fprintf(stderr,
                  "trajlo_simulate: a signal ended it early; what was simulated until then, %lld "
-                 "scans, is a recording of its own\n",
+                 "scans, is a complete, shorter recording\n",
                  static_cast<long long>(writer.scans()));
   }
   return is_whole;

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Holds covariances against the errors that runs really had: normalised errors squared (NEES).
+"""Compares covariances with the actual errors of runs: normalised errors squared (NEES).
 
   scripts/check_covariance.py RUN/result=RUN/truth.tum [...]
 Each RUN/result was written by `trajlo_run --covariance`; all runs are of one kind (a scenario with
@@ -14,7 +14,7 @@ For each stretch of time it prints the mean over the runs and the poses of the s
 0.05 s, divided by its expected value (6; 3 for translation or rotation alone).
 If the covariance is right, that ratio lies in the band printed for 95 of 100 such experiments, and
 its mean over time all the more. That mean is the factor by which the covariance is optimistic; its
-95 % interval is a bootstrap over the runs, for the times of a run hang together (give ten or more:
+95 % interval is a bootstrap over the runs, as the poses of a run are correlated (give ten or more:
 of fewer it is too narrow, and of one run nothing is concluded).
 Needs Debian's python3-numpy and python3-scipy.
 

@@ -40,7 +40,7 @@ std::vector<StampedPose> WantedPoses(const ConvertRequest& request,
   if (wanted.empty()) {
     throw InputError(request.input,
                      "none of the " + std::to_string(poses.size()) + " poses of " + request.poses +
-                         " lies in what is to be converted",
+                         " lies in the part to convert",
                      "Check --start_s and --duration_s with trajlo_info.");
   }
   return wanted;
@@ -109,7 +109,7 @@ ExitCode CopyMessagesOver(const ConvertRequest& request, const std::atomic<bool>
     std::fprintf(stderr, "trajlo_convert: %s is left out: %s\n", topic.c_str(), reason.c_str());
   }
   if (copied.messages == 0) {
-    throw InputError(request.input, "no message lies in what is to be copied",
+    throw InputError(request.input, "there is no message in the part to copy",
                      "Check --topics, --start_s and --duration_s with trajlo_info.");
   }
   bag->Close();

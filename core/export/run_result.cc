@@ -34,7 +34,7 @@ void TakeSummary(const fs::path& path, RunResult* result) {
       result->lost_at_ns = ParseDecimalNs(lost_at_s.get<std::string>(), 1'000'000'000);
     }
   } catch (const Json::exception& error) {
-    throw InputError(path, std::string("this is no summary of a run: ") + error.what(),
+    throw InputError(path, std::string("this is not the summary of a run: ") + error.what(),
                      "Give a folder that trajlo_run wrote.");
   }
 }

@@ -190,7 +190,7 @@ std::vector<std::int64_t> ReadStampsFile(const fs::path& path) {
     if (!t_ns) t_ns = ParseDateTimeNs(stamp);
     if (!t_ns) {
       throw InputError(path,
-                       "line " + std::to_string(lines.number()) + " is no stamp: '" +
+                       "line " + std::to_string(lines.number()) + " is not a stamp: '" +
                            std::string(stamp.substr(0, 60)) + "'",
                        "Write one stamp a line: seconds, nanoseconds, or "
                        "YYYY-MM-DD hh:mm:ss.nnnnnnnnn.");

@@ -34,7 +34,7 @@ std::string RunSummary::OddStamps() const {
   };
   add(times.reordered, "put in order");
   add(times.retimed, "given the time between their neighbours (wrong stamps)");
-  add(times.assumed, "given an assumed time (the stamps stand still)");
+  add(times.assumed, "given an assumed time (the stamps do not change)");
   add(times.moved, "moved with the clock, which had made a step");
   add(times.misfits, "dropped (their stamps fit nowhere)");
   add(times.repeated, "dropped (repeated)");

@@ -151,7 +151,7 @@ def lay_out(items, downloads, data, programs, after=None):
 
 
 def main(description, items, after=None, remarks=""):
-    """The command of one data set. `description` says where it is had and how it is laid out."""
+    """The command of one data set. `description` says where to download it and how it is laid out."""
     parser = command_line.Parser(description=f"{description}\n\n{EXIT_CODES}")
     parser.add_argument("downloads", nargs="?", type=pathlib.Path,
                         help="the folder with what you downloaded, unpacked")

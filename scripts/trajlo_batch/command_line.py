@@ -33,14 +33,14 @@ def add_work_arguments(parser, run_name):
     parser.add_argument("--list", action="store_true", help="show the runs and stop")
     parser.add_argument("--command", metavar=run_name.upper(),
                         help="print how to repeat a run and stop")
-    parser.add_argument("--report", action="store_true", help="only write tables and page again")
-    parser.add_argument("--retry", action="store_true", help="do again what has an x by its exit")
+    parser.add_argument("--report", action="store_true", help="only rewrite tables and page")
+    parser.add_argument("--retry", action="store_true", help="repeat runs that failed, got lost or timed out")
     parser.add_argument("--any-version", action="store_true",
-                        help="keep runs that another build of the programs has done")
+                        help="keep runs of other builds of the programs")
     parser.add_argument("--drop-recordings", action="store_true",
                         help="delete each simulated recording as soon as its runs are done")
     parser.add_argument("--slurm", action="store_true", help="submit the jobs with sbatch")
-    parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for it")
+    parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for sbatch")
 
 
 def add_build_argument(parser):
@@ -86,7 +86,7 @@ def alike(missing):
 
 
 def say_missing(suite, missing):
-    """Which sequences have no data, what was looked for, and where the data can be had."""
+    """Which sequences have no data, what was looked for, and where to download the data."""
     if not missing:
         return
     for paths, names in alike(missing).items():

@@ -59,9 +59,9 @@ void CaptureFile::Open() {
   capture_.reset(
       pcap_fopen_offline_with_tstamp_precision(file.get(), PCAP_TSTAMP_PRECISION_NANO, message));
   if (capture_ == nullptr) {
-    throw InputError(path_, std::string("this is no packet capture that libpcap reads: ") + message,
+    throw InputError(path_, std::string("libpcap cannot read this as a packet capture: ") + message,
                      "Give a .pcap or .pcapng file (not compressed), or Velodyne payloads of 1206 "
-                     "bytes one behind the other.");
+                     "bytes one after the other.");
   }
   static_cast<void>(file.release());  // libpcap closes it now.
   link_type_ = pcap_datalink(capture_.get());

@@ -37,8 +37,8 @@ void PacketCloudReader::ReportCapture() {
       warn(name + ": " + std::to_string(stream.datagrams) + " " + stream.problem);
     } else if (stream.foreign > 0 && !IsPortOfSensor(stream.port)) {
       warn(name + ": " +
-           CountOf(stream.foreign, "datagram is no lidar packet and is passed over",
-                   "datagrams are no lidar packets and are passed over"));
+           CountOf(stream.foreign, "datagram is not a LiDAR packet and is ignored",
+                   "datagrams are not LiDAR packets and are ignored"));
     } else if (stream.kind == PacketStream::Kind::kOuster && stream.serial != 0) {
       const OusterMetadata& metadata = survey_.metadata[stream.metadata];
       if (metadata.serial == 0 || metadata.serial == stream.serial) continue;

@@ -16,7 +16,7 @@ std::shared_ptr<const RandomAccessFile> OpenMcap(const std::filesystem::path& pa
                                                  const std::filesystem::path& shown) {
   auto file = std::make_shared<const RandomAccessFile>(path);
   if (file->Read(0, kMcapMagic.size()).view() != kMcapMagic) {
-    throw InputError(shown, "this is no MCAP file: it does not begin with the format's mark",
+    throw InputError(shown, "this is not an MCAP file: it does not begin with the format's mark",
                      "Give a file that ends with .mcap, or a bag of another kind.");
   }
   return file;

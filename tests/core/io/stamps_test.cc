@@ -92,7 +92,7 @@ TEST(StampsFile, ALineThatIsNoStampIsNamed) {
     ReadStampsFile(folder.Write("timestamps.txt", "1.0\n\nyesterday\n"));
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("line 3 is no stamp: 'yesterday'"));
+    EXPECT_THAT(error.what(), HasSubstr("line 3 is not a stamp: 'yesterday'"));
   }
 }
 

@@ -150,7 +150,7 @@ TEST(OusterSweeps, LeaveOutColumnsThatAreBrokenAndPacketsOfAnotherSize) {
   EXPECT_TRUE(all.report.damaged);
   EXPECT_THAT(all.Warnings(), HasSubstr("2 columns have an impossible number or time"));
   EXPECT_THAT(all.Warnings(), HasSubstr("1 datagram has another size"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("udp:9999: 1 datagram is no lidar packet"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("udp:9999: 1 datagram is not a LiDAR packet"));
 }
 
 TEST(OusterSweeps, OfDualReturnsKeepBothOrTheFirst) {
@@ -222,7 +222,7 @@ TEST(OusterMetadata, ThatCannotBeUsedIsAnErrorThatNamesTheEntry) {
               HasSubstr("_origin_mm is \"far\""));
   EXPECT_THAT(refused("/data_format/columns_per_packet", 8), HasSubstr("not of the size that"));
   folder.Write("run.json", "{ broken");
-  EXPECT_THAT(WhatReadingThrows(capture), HasSubstr("run.json: this is no JSON object"));
+  EXPECT_THAT(WhatReadingThrows(capture), HasSubstr("run.json: this is not a JSON object"));
 }
 
 TEST(OusterMetadata, OfEarlyFirmwareHasNoFormatAndMeansTheLegacyProfile) {

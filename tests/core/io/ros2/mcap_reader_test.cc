@@ -209,7 +209,7 @@ TEST(McapReader, OtherFilesAreErrorsThatSayWhatIsMissing) {
     return "no error";
   };
   EXPECT_THAT(message(""), HasSubstr("does not begin with the format's mark"));
-  EXPECT_THAT(message("#ROSBAG V2.0"), HasSubstr("this is no MCAP file"));
+  EXPECT_THAT(message("#ROSBAG V2.0"), HasSubstr("this is not an MCAP file"));
   EXPECT_THAT(message(testing::ReadFile(Fixture("none.mcap")).substr(0, 60)),
               HasSubstr("no channel is in the 60 bytes"));
   EXPECT_THROW(McapReader(folder.path() / "absent.mcap"), InputError);
