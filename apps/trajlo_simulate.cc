@@ -22,6 +22,7 @@
 #include "core/config/edit_distance.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
+#include "core/io/format_text.h"
 #include "core/simulation/recording_writer.h"
 #include "core/simulation/scan_stream.h"
 #include "core/simulation/scenario.h"
@@ -238,17 +239,17 @@ bool Write(const trajlo::simulation::Simulator& simulator,
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::printf(
-      "%s: %.1f s, %lld scans, %.2f million points in %s\n%.1f s to simulate, %.2f million "
+      "%s: %.1f s, %s, %.2f million points in %s\n%.1f s to simulate, %.2f million "
       "points a second\n",
       simulator.scenario().name.c_str(),
       is_whole ? simulator.scenario().duration_s : writer.seconds(),
-      static_cast<long long>(writer.scans()), 1e-6 * static_cast<double>(writer.points()),
+      trajlo::CountOf(writer.scans(), "scan").c_str(), 1e-6 * static_cast<double>(writer.points()),
       FLAGS_output.c_str(), seconds, 1e-6 * static_cast<double>(writer.points()) / seconds);
   if (!is_whole) {
     std::fprintf(stderr,
-                 "trajlo_simulate: a signal ended it early; what was simulated until then, %lld "
-                 "scans, is a complete, shorter recording\n",
-                 static_cast<long long>(writer.scans()));
+                 "trajlo_simulate: a signal ended it early; what was simulated until then, %s, "
+                 "is a complete, shorter recording\n",
+                 trajlo::CountOf(writer.scans(), "scan").c_str());
   }
   return is_whole;
 }

@@ -95,8 +95,8 @@ void TakePoses(const fs::path& path, const std::map<std::int64_t, unsigned>& fla
                          : "there is no pose",
                      result->poses_left_out > 0 ? "--keep_lost takes them all the same." : "");
   }
-  // No window ends at the first pose, nor where a pause begins and ends.
-  result->has_control_poses = 2 * estimated >= result->trajectory.poses().size();
+  // No window ends at the first pose, nor where a pause begins and ends; a short run has none.
+  result->has_control_poses = flags.empty() || 2 * estimated >= result->trajectory.poses().size();
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ std::string Flagged(const PoseFlags& flags) {
   for (const auto& [name, total] : flags.totals()) {
     if (total.poses == 0) continue;
     text +=
-        (text.empty() ? "" : ", ") + name + FormatText(" %zu (%.1f s)", total.poses, total.seconds);
+        (text.empty() ? "" : ", ") + name + FormatText(" %zu (%.2f s)", total.poses, total.seconds);
   }
   return text.empty() ? text : text + "; see flags.csv";
 }
@@ -62,11 +62,13 @@ std::string SummaryTable(const RunSummary& s) {
   table += Line("trajectory", CountOf(s.poses_written, "pose") +
                                   FormatText(", %.2f m long, ends %.2f m from its start",
                                              s.path_length_m, s.distance_to_start_m));
-  table += Line("windows",
-                std::to_string(s.windows.windows) +
-                    FormatText(", %.0f points each, %.0f %% inliers, %.1f rounds",
-                               s.windows.Mean(s.windows.points), 100.0 * s.windows.InlierShare(),
-                               s.windows.Mean(s.windows.rounds)));
+  table += Line("windows", s.windows.windows == 0
+                               ? "none"
+                               : std::to_string(s.windows.windows) +
+                                     FormatText(", %.0f points each, %.0f %% inliers, %.1f rounds",
+                                                s.windows.Mean(s.windows.points),
+                                                100.0 * s.windows.InlierShare(),
+                                                s.windows.Mean(s.windows.rounds)));
   const std::string flagged = Flagged(s.flags);
   if (!flagged.empty()) table += Line("flagged", flagged);
   const std::string corrections = CorrectionsText(s.rig);
