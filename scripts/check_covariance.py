@@ -4,8 +4,8 @@
 
   scripts/check_covariance.py RUN/result=RUN/truth.tum [...]
 Each RUN/result was written by `trajlo_run --covariance`; all runs are of one kind (a scenario with
-many seeds). A covariance is that of a pose relative to the map in view. The map's own place in the
-world nobody knows, so two poses A and B of a run are held against each other, a second apart
+many seeds). A covariance is that of a pose relative to the map in view. The place of the
+map itself in the world is unknown, so two poses A and B of a run are compared, a second apart
 (--apart):
 
   NEES = e' C^-1 e,   true A^-1 B = (A^-1 B) Exp(e),   C = C_B + Ad C_A Ad',  Ad of B^-1 A.
