@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdio>
 
+#include "core/io/format_text.h"
+
 namespace trajlo {
 
 void PrintWarnings(const char* command, const std::vector<std::string>& warnings,
@@ -13,7 +15,8 @@ void PrintWarnings(const char* command, const std::vector<std::string>& warnings
     std::fprintf(stderr, "%s: warning: %s\n", command, warnings[i].c_str());
   }
   if (warnings.size() <= kPrinted) return;
-  std::fprintf(stderr, "%s: %zu more warnings%s\n", command, warnings.size() - kPrinted, the_rest);
+  std::fprintf(stderr, "%s: %s%s\n", command,
+               CountOf(warnings.size() - kPrinted, "more warning").c_str(), the_rest);
 }
 
 }  // namespace trajlo

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "apps/usage_error.h"
+#include "core/io/format_text.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
 
@@ -45,8 +46,8 @@ template <typename T>
 void RequireOneForEach(const char* key, const PerLidar<T>& option, std::size_t lidars) {
   const std::size_t given = option.values.size();
   if (given == 1 || given == lidars) return;
-  throw UsageError(std::string(key) + " has " + std::to_string(given) + " values, and " +
-                   Count(lidars) + ": give one value for all, or one for each");
+  throw UsageError(std::string(key) + " has " + CountOf(given, "value") + ", and " + Count(lidars) +
+                   ": give one value for all, or one for each");
 }
 
 }  // namespace

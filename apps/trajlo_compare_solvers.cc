@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The same windows, and the same recording, by many solvers. See --help.
+// Compares solvers on the same windows, and on the same recording. See --help.
 #include <gflags/gflags.h>
 
 #include <filesystem>
@@ -23,7 +23,7 @@ DEFINE_string(set, "", "options for all variants: key=value, separated by commas
 DEFINE_string(variants, "",
               "YAML file with the variants; empty takes config/comparisons/solvers.yaml");
 DEFINE_string(only, "",
-              "names of the variants to take, separated by commas; the first is the yardstick");
+              "names of the variants to take, separated by commas; the first is the reference");
 DEFINE_string(mode, "both", "lockstep, free or both");
 DEFINE_int32(every, 5, "lockstep: compare every Nth window");
 DEFINE_string(truth, "", "ground truth of the trajectory, for errors of the free runs");
@@ -37,22 +37,22 @@ namespace {
 using trajlo::ExitCode;
 using trajlo::UsageError;
 
-constexpr char kHelp[] = R"(The same windows, and the same recording, by many solvers.
+constexpr char kHelp[] = R"(Compares solvers on the same windows, and on the same recording.
 
   trajlo_compare_solvers recording -o comparison
       lockstep: in every fifth window, all variants start from the same poses, associations and
       prior; free: each runs the whole recording by itself. Writes
         comparison/comparison.json       everything, with settings and versions
-        comparison/lockstep.csv          a line per window and variant: costs by factor, steps,
+        comparison/lockstep.csv          a row per window and variant: costs by factor, steps,
                                          distance between the solutions, times by stage
         comparison/iterations.csv        the cost after every step
-        comparison/lockstep_summary.csv, free_summary.csv   a line per variant
+        comparison/lockstep_summary.csv, free_summary.csv   a row per variant
         comparison/free/VARIANT/         trajectory.tum and windows.csv of each run
         comparison/report.html           the figures on one page (also as SVG, PDF and PNG)
   trajlo_compare_solvers recording -o comparison --truth=truth.tum
       with the errors of the free runs
   trajlo_compare_solvers recording -o two --only=gauss_newton,ceres --every=1
-      two of the variants, in every window; the first is the yardstick
+      two of the variants, in every window; the first is the reference
   trajlo_compare_solvers recording -o mine --variants=my_variants.yaml --mode=free
       my_variants.yaml:
         variants:
@@ -66,7 +66,7 @@ Flags:
   --threads=N               for all variants (1, which makes their times comparable)
   --mode=lockstep|free|both
   --variants=FILE           YAML with the variants (config/comparisons/solvers.yaml)
-  --only=A,B                those of the variants to take; the first is the yardstick
+  --only=A,B                only these variants; the first is the reference
   --every=N                 lockstep: compare every Nth window (5)
   --truth=FILE              ground truth, for the errors of the free runs
   --noreport                draw no figures
@@ -76,7 +76,7 @@ Flags:
 
 Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 3 part of the input was
 damaged or in doubt, 4 a run got lost, 5 output not writable, 6 out of memory or a defect of the
-program, 130 interrupted; what was compared until then is written.
+program, 130 interrupted; what was compared so far is written.
 )";
 
 /// Those that `only` names, in its order; all if it is empty.

@@ -48,7 +48,7 @@ using trajlo::ExitCode;
 using trajlo::UsageError;
 
 constexpr char kHelp[] =
-    R"(Results of trajlo_run for other tools, and recordings of any kind as another.
+    R"(Converts results of trajlo_run for other tools, and recordings to other formats.
 
   trajlo_convert result result.mcap
       a result for Foxglove and RViz (ros2 bag play): /tf, /odometry, /path, /map, and the deskewed
@@ -81,23 +81,23 @@ constexpr char kHelp[] =
       scans/scans/*.pcd and scans/timestamps.txt; several LiDARs: scans/lidar0/..., scans/lidar1/...
       with record_times.txt beside timestamps.txt, by which trajlo_run merges them
   trajlo_convert square.bag truth.tum --poses=/leica/pose/relative
-      PoseStamped, PoseWithCovarianceStamped, TransformStamped, PointStamped or Odometry as TUM
-      (ROS 1 and ROS 2)
+      the poses of a topic (PoseStamped, PoseWithCovarianceStamped, TransformStamped, PointStamped
+      or Odometry, ROS 1 and ROS 2) in TUM's format
 
 Flags of results:
-  --recording=PATH              where the recording is now; else where it was
-  --keep_lost                   also poses from where the estimator got lost on
+  --recording=PATH              where the recording is now, if it was moved
+  --keep_lost                   keep the poses after the estimator got lost
   --noscans, --nomap            no deskewed scans, no map in a bag
-  --voxel_m=M                   one point of the map for each voxel of that size; 0: as the run's map
+  --voxel_m=M                   one point of the map per voxel of that size; 0: as in the run
   --color=height|intensity|time   of the map
   --frame=body|world            of deskewed scans (body)
   --scan_format=pcd|ply         of a folder of deskewed scans
 Flags of recordings:
-  --topics=A,B                  of a bag; else all
+  --topics=A,B                  of a bag; by default all
   --poses=TOPIC                 write the poses of that topic, in TUM's format
   --start_s=S --duration_s=S    from the first message (of its kind) on
   --layout=ouster|velodyne|livox
-  --set=input.time_unit=us, --config=NAME   how point times are meant, as for trajlo_run
+  --set=input.time_unit=us, --config=NAME   how to read point times, as for trajlo_run
 Flags of both:
   --compression=NAME            of .bag none, lz4 or bz2; of .mcap zstd, lz4 or none
   -o, --output=OUTPUT           the same as the last argument

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far estimated trajectories are from the truth. See --help.
+// Errors of estimated trajectories against ground truth. See --help.
 #include <gflags/gflags.h>
 
 #include <filesystem>
@@ -51,7 +51,7 @@ using trajlo::EvaluateRequest;
 using trajlo::ExitCode;
 using trajlo::UsageError;
 
-constexpr char kHelp[] = R"(How far estimated trajectories are from the truth.
+constexpr char kHelp[] = R"(Errors of estimated trajectories against ground truth.
 
   trajlo_evaluate result truth.tum
       the trajectory in a folder that trajlo_run wrote; a file by its name

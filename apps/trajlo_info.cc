@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a recording holds, and how to run on it. See --help.
+// What a recording contains, and the command to run on it. See --help.
 #include <gflags/gflags.h>
 
 #include <string>
@@ -22,7 +22,7 @@ namespace {
 
 using trajlo::ExitCode;
 
-constexpr char kHelp[] = R"(What a recording holds, and how to run on it.
+constexpr char kHelp[] = R"(What a recording contains, and the command to run on it.
 
   trajlo_info recording.bag
       topics, fields, rates, what the point times mean and how that is known, gaps and other faults

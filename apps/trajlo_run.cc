@@ -49,7 +49,7 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
         result/windows.csv      what happened in every window
         result/flags.csv        for every pose, whether it can be trusted
         result/rig.yaml         poses and clocks of several LiDARs, as found
-        result/config.yaml      all options as they were
+        result/config.yaml      all options of the run
         result/run.json         counts, times, warnings, and how the run ended
   trajlo_run flight.bag -o result --config ouster
       settings by name (--list_configs lists the names) or from a YAML file of your own;
@@ -61,7 +61,7 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
   trajlo_run kitti/sequences/00 -o result --config kitti
       motion-corrected scans without point times
   trajlo_run front rear -o result --config rig.yaml
-      several LiDARs; sensor.T_body_lidar in rig.yaml says where each of them sits
+      several LiDARs; sensor.T_body_lidar in rig.yaml has the pose of each on the body
   trajlo_run --show_config
       every option with its value and its meaning (with --config and --set: as these set it)
 
@@ -88,7 +88,7 @@ Flags may stand anywhere. A value may follow after a space in place of the `=`.
 
 Exit codes: 0 ok, 1 wrong usage or configuration, 2 input unreadable, 3 part of the input is
 damaged, 4 the estimator got lost, 5 output not writable, 6 out of memory or a defect of the
-program, 130 interrupted. After 3, 4 and 130 the result until then is there.
+program, 130 interrupted. After 3, 4 and 130, the result so far is written.
 )";
 
 trajlo::RunConfig ConfigFromFlags() {

@@ -22,6 +22,7 @@
 #include "core/config/edit_distance.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
+#include "core/io/format_text.h"
 #include "core/simulation/recording_writer.h"
 #include "core/simulation/scan_stream.h"
 #include "core/simulation/scenario.h"
@@ -65,9 +66,11 @@ constexpr char kHelp[] = R"(Simulates a LiDAR recording with exact ground truth.
       everything that --set can change, with its value
   trajlo_simulate hall_os1_16 -o noisy --set lidar.range_sigma_m=0.05 --set motion.speed_mps=5
       `lidar.` is every LiDAR of the rig, `lidar0.` the first
-  trajlo_simulate hall_os1_16 -o again --set motion.kind=replay,motion.replay_file=run.tum
-      flies a trajectory of your own through the hall
+  trajlo_simulate hall_os1_16 -o again --duration_s=10 \
+      --set motion.kind=replay,motion.replay_file=run.tum
+      flies the first 10 s of your own trajectory through the hall
   trajlo_simulate hall_os1_16 -o broken --set faults.dropped_scan_fraction=0.05
+      with one of 20 scans missing
   trajlo_simulate hall_os1_16 -o bagged --format=bag --bag_compression=lz4
       bagged/recording.bag in place of the scans, with the truth on /truth
 
@@ -86,7 +89,7 @@ Flags:
   -h, --help, --version
 
 Exit codes: 0 done, 1 wrong usage, 5 output not writable, 6 out of memory or a defect of the program,
-130 interrupted; what was simulated until then is a shorter recording.
+130 interrupted; what was simulated so far is a shorter recording.
 )";
 
 /// `key=value,key=value`. A piece without '=' belongs to the value before it, which lets a value
@@ -236,17 +239,17 @@ bool Write(const trajlo::simulation::Simulator& simulator,
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::printf(
-      "%s: %.1f s, %lld scans, %.2f million points in %s\n%.1f s to simulate, %.2f million "
+      "%s: %.1f s, %s, %.2f million points in %s\n%.1f s to simulate, %.2f million "
       "points a second\n",
       simulator.scenario().name.c_str(),
       is_whole ? simulator.scenario().duration_s : writer.seconds(),
-      static_cast<long long>(writer.scans()), 1e-6 * static_cast<double>(writer.points()),
+      trajlo::CountOf(writer.scans(), "scan").c_str(), 1e-6 * static_cast<double>(writer.points()),
       FLAGS_output.c_str(), seconds, 1e-6 * static_cast<double>(writer.points()) / seconds);
   if (!is_whole) {
     std::fprintf(stderr,
-                 "trajlo_simulate: a signal ended it early; what was simulated until then, %lld "
-                 "scans, is a recording of its own\n",
-                 static_cast<long long>(writer.scans()));
+                 "trajlo_simulate: a signal ended it early; what was simulated until then, %s, "
+                 "is a complete, shorter recording\n",
+                 trajlo::CountOf(writer.scans(), "scan").c_str());
   }
   return is_whole;
 }

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Holds covariances against the errors that runs really had: normalised errors squared (NEES).
+"""Compares covariances with the actual errors of runs: normalised errors squared (NEES).
 
   scripts/check_covariance.py RUN/result=RUN/truth.tum [...]
 Each RUN/result was written by `trajlo_run --covariance`; all runs are of one kind (a scenario with
-many seeds). A covariance is that of a pose relative to the map in view. The map's own place in the
-world nobody knows, so two poses A and B of a run are held against each other, a second apart
+many seeds). A covariance is that of a pose relative to the map in view. The place of the
+map itself in the world is unknown, so two poses A and B of a run are compared, a second apart
 (--apart):
 
   NEES = e' C^-1 e,   true A^-1 B = (A^-1 B) Exp(e),   C = C_B + Ad C_A Ad',  Ad of B^-1 A.
@@ -14,7 +14,7 @@ For each stretch of time it prints the mean over the runs and the poses of the s
 0.05 s, divided by its expected value (6; 3 for translation or rotation alone).
 If the covariance is right, that ratio lies in the band printed for 95 of 100 such experiments, and
 its mean over time all the more. That mean is the factor by which the covariance is optimistic; its
-95 % interval is a bootstrap over the runs, for the times of a run hang together (give ten or more:
+95 % interval is a bootstrap over the runs, as the poses of a run are correlated (give ten or more:
 of fewer it is too narrow, and of one run nothing is concluded).
 Needs Debian's python3-numpy and python3-scipy.
 
@@ -28,6 +28,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation, Slerp
 
 from trajlo_report import command_line, files
+from trajlo_report.names import counted
 
 PARTS = {"pose": slice(0, 6), "translation": slice(0, 3), "rotation": slice(3, 6)}
 STEP_S = 0.05
@@ -126,7 +127,7 @@ def interval(values):
 
 def print_stretches(every, moments, ratios, errors):
     count = errors.shape[1]
-    print(f"{count} runs; ratio of mean NEES to its expected value")
+    print(f"{counted(count, 'run')}; ratio of mean NEES to its expected value")
     print("  until s" + "".join(f"{part:>13}" for part in PARTS) + "   rms m  rms deg")
     ends = np.ceil(moments / every - 1e-9) * every
     for end in np.unique(ends):

@@ -12,7 +12,7 @@ one scene with two seeds: the median of the errors, and the mean of the times.
 
 All run with the options they come with; KISS-ICP's voxels are a hundredth of its range, 1 m, which
 is wide for rooms: --kiss_icp_voxel_m gives others. The peers have one pose a scan and do not say
-for when: the best of its begin, middle and end counts. MAD-ICP is built on the spot:
+for when: the best of its begin, middle and end counts. MAD-ICP is built from source:
   peers/bin/pip install "scikit-build-core<0.10" pybind11 "cmake<4" ninja
   peers/bin/pip install --no-build-isolation mad-icp
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""How right covariances are, in many scenes, at rest and in motion.
+"""How accurate covariances are, in many scenes, at rest and in motion.
 
   scripts/covariance_table.py --output runs/covariance
 simulates each scene at rest and in motion with a few seeds, runs them with `--covariance`, and

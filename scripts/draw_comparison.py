@@ -14,7 +14,7 @@ import sys
 
 from trajlo_report import comparison_words as words
 from trajlo_report import figures_comparison as figures
-from trajlo_report import command_line, files, page, theme
+from trajlo_report import command_line, files, names, page, theme
 
 
 def with_notes(caption, left_out):
@@ -85,7 +85,8 @@ def draw(arguments):
         undrawn=undrawn, few_poses=words.few_poses,
         leaves_s={item["name"]: words.since_begin(folder, item) for item in free},
         length=words.small_length, config=(folder / "config.yaml").read_text()))
-    print(f"{report}: {len(document['variants'])} variants, {len(drawn)} figures")
+    print(f"{report}: {names.counted(len(document['variants']), 'variant')}, "
+          f"{names.counted(len(drawn), 'figure')}")
     return 0
 
 

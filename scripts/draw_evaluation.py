@@ -14,7 +14,7 @@ import pathlib
 import sys
 
 from trajlo_report import (command_line, evaluated, evaluation_words, figures_evaluation, files,
-                           page, theme)
+                           names, page, theme)
 
 WIDTHS = {"column": theme.COLUMN_IN, "page": theme.PAGE_IN}
 
@@ -45,8 +45,8 @@ def draw(arguments):
         warnings=document.get("warnings", []))
     report = output / "report.html"
     files.write_atomically(report, text)
-    count = "1 estimate" if len(estimates) == 1 else f"{len(estimates)} estimates"
-    print(f"{report}: {count}, {len(drawn)} figures in {output / 'figures'}")
+    print(f"{report}: {names.counted(len(estimates), 'estimate')}, "
+          f"{names.counted(len(drawn), 'figure')} in {output / 'figures'}")
     return 0
 
 

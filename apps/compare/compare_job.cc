@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 void PrepareFolder(const CompareRequest& request) {
   std::error_code error;
   if (fs::exists(request.output, error) && !fs::is_directory(request.output, error)) {
-    throw OutputError(request.output, "is there and is no folder");
+    throw OutputError(request.output, "exists and is not a folder");
   }
   const bool is_there = fs::exists(fs::path(request.output) / "comparison.json", error);
   if (is_there && !request.overwrite) {

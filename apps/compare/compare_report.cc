@@ -23,9 +23,8 @@ const FreeResult* FindFree(const CompareReport& report, const std::string& name)
 }
 
 std::string LockstepTable(const CompareReport& report) {
-  std::string text = FormatText(
-      "lockstep: %d windows, each solved by all from the same start; ms: median per window\n",
-      report.lockstep.front().windows());
+  std::string text = "lockstep: " + CountOf(report.lockstep.front().windows(), "window") +
+                     ", each solved by all from the same start; ms: median per window\n";
   text += FormatText("  %-22s %7s %9s %9s %9s %9s %7s %10s %10s\n", "variant", "steps", "rejected",
                      "eval ms", "linear ms", "total ms", "ratio", "median m", "max m");
   for (std::size_t i = 0; i < report.lockstep.size(); ++i) {

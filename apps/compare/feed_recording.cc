@@ -10,8 +10,8 @@
 
 namespace trajlo {
 
-Feed FeedRecording(const CompareRequest& request, const std::atomic<bool>& stop,
-                   const double& inlier_share, Odometry* odometry) {
+Feed FeedRecording(const CompareRequest& request, const std::string& name,
+                   const std::atomic<bool>& stop, const double& inlier_share, Odometry* odometry) {
   Feed feed;
   const auto recording = OpenRecording(request.inputs, request.config.input);
   ProgressBar bar(stderr, request.quiet);
@@ -23,7 +23,7 @@ Feed FeedRecording(const CompareRequest& request, const std::atomic<bool>& stop,
     odometry->AddScan(scan);
     feed.wall_s += watch.Seconds();
     bar.Update({count + 1, recording->size(), Seconds(scan.stamp_ns - first_ns), feed.wall_s,
-                inlier_share});
+                inlier_share, name});
   }
   odometry->Finish();
   feed.wall_s += watch.Seconds();

@@ -21,9 +21,9 @@ struct Feed {
   std::vector<std::string> warnings;
 };
 
-/// Takes a whole recording to the odometry, or what is read of it until `stop`; `inlier_share` is
-/// for the progress bar. Throws InputError.
-Feed FeedRecording(const CompareRequest& request, const std::atomic<bool>& stop,
-                   const double& inlier_share, Odometry* odometry);
+/// Takes a whole recording to the odometry, or what is read of it until `stop`. The progress bar
+/// shows `name` and `inlier_share`. Throws InputError.
+Feed FeedRecording(const CompareRequest& request, const std::string& name,
+                   const std::atomic<bool>& stop, const double& inlier_share, Odometry* odometry);
 
 }  // namespace trajlo

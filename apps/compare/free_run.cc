@@ -36,7 +36,7 @@ FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant,
     result.rejected_steps += window.rejected_steps;
     inlier_share = window.InlierShare();
   });
-  result.feed = FeedRecording(request, stop, inlier_share, &odometry);
+  result.feed = FeedRecording(request, variant.name, stop, inlier_share, &odometry);
   result.cpu_s = ProcessCpuSeconds() - cpu_begin_s;
 
   TumWriter trajectory(folder / "trajectory.tum", IfExists::kReplace);

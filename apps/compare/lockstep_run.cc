@@ -30,7 +30,7 @@ std::vector<LockstepTotals> RunLockstep(const CompareRequest& request,
     inlier_share = window.InlierShare();
     lockstep->FinishWindow();
   });
-  *feed = FeedRecording(request, stop, inlier_share, &odometry);
+  *feed = FeedRecording(request, "lockstep", stop, inlier_share, &odometry);
   csv.Close();
   return totals;
 }

@@ -13,6 +13,7 @@
 #include "core/io/conversion/extract_poses.h"
 #include "core/io/conversion/message_copy.h"
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_writer.h"
@@ -39,7 +40,7 @@ std::vector<StampedPose> WantedPoses(const ConvertRequest& request,
   if (wanted.empty()) {
     throw InputError(request.input,
                      "none of the " + std::to_string(poses.size()) + " poses of " + request.poses +
-                         " lies in what is to be converted",
+                         " lies in the part to convert",
                      "Check --start_s and --duration_s with trajlo_info.");
   }
   return wanted;
@@ -54,9 +55,12 @@ ExitCode WritePoses(const ConvertRequest& request) {
   tum.Close();
   PrintWarnings(kCommand, extracted.report.warnings);
   if (extracted.unreadable > 0) {
-    std::fprintf(stderr, "trajlo_convert: %zu messages hold no pose\n", extracted.unreadable);
+    std::fprintf(stderr, "trajlo_convert: %s no pose\n",
+                 CountOf(extracted.unreadable, "message holds", "messages hold").c_str());
   }
-  if (!request.quiet) std::printf("%zu poses in %s\n", wanted.size(), request.output.c_str());
+  if (!request.quiet) {
+    std::printf("%s in %s\n", CountOf(wanted.size(), "pose").c_str(), request.output.c_str());
+  }
   const bool partial = extracted.report.damaged || extracted.unreadable > 0;
   return partial ? ExitCode::kPartialInput : ExitCode::kOk;
 }
@@ -87,7 +91,8 @@ ExitCode CopyRos1Bags(const ConvertRequest& request, const std::atomic<bool>& st
       });
   PrintWarnings(kCommand, copied.report.warnings);
   if (!request.quiet) {
-    std::printf("%zu messages copied as they are to %s\n", copied.messages, request.output.c_str());
+    std::printf("%s copied as recorded to %s\n", CountOf(copied.messages, "message").c_str(),
+                request.output.c_str());
   }
   return copied.report.damaged ? ExitCode::kPartialInput : ExitCode::kOk;
 }
@@ -104,12 +109,13 @@ ExitCode CopyMessagesOver(const ConvertRequest& request, const std::atomic<bool>
     std::fprintf(stderr, "trajlo_convert: %s is left out: %s\n", topic.c_str(), reason.c_str());
   }
   if (copied.messages == 0) {
-    throw InputError(request.input, "no message lies in what is to be copied",
+    throw InputError(request.input, "there is no message in the part to copy",
                      "Check --topics, --start_s and --duration_s with trajlo_info.");
   }
   bag->Close();
   if (!request.quiet) {
-    std::printf("%zu messages with all fields in %s\n", copied.messages, request.output.c_str());
+    std::printf("%s with all fields in %s\n", CountOf(copied.messages, "message").c_str(),
+                request.output.c_str());
   }
   const bool partial = copied.report.damaged || !copied.left_out.empty();
   return partial ? ExitCode::kPartialInput : ExitCode::kOk;
@@ -119,8 +125,8 @@ ExitCode WriteScans(const ConvertRequest& request, const std::atomic<bool>& stop
   const ConvertedScans converted = ConvertScans(request, stop);
   PrintWarnings(kCommand, converted.report.warnings);
   if (!request.quiet) {
-    std::printf("%zu scans of %zu LiDAR%s, %.2f million points, in %s\n", converted.scans,
-                converted.lidars, converted.lidars == 1 ? "" : "s",
+    std::printf("%s of %s, %.2f million points, in %s\n", CountOf(converted.scans, "scan").c_str(),
+                CountOf(converted.lidars, "LiDAR").c_str(),
                 1e-6 * static_cast<double>(converted.points), request.output.c_str());
   }
   return converted.report.IsPartial() ? ExitCode::kPartialInput : ExitCode::kOk;

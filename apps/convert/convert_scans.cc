@@ -165,7 +165,7 @@ ConvertedScans ConvertScans(const ConvertRequest& request, const std::atomic<boo
   }
   converted.report = recording->report();
   if (output == nullptr) {
-    throw InputError(request.input, "no scan lies in what is to be converted",
+    throw InputError(request.input, "there is no scan in the part to convert",
                      "Check --topics, --start_s and --duration_s with trajlo_info.");
   }
   output->Close();

@@ -20,6 +20,7 @@
 #include "core/export/surface_map.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_reader.h"
@@ -75,9 +76,10 @@ void WarnOfResult(const RunResult& result) {
   }
   if (result.poses_left_out > 0) {
     std::fprintf(stderr,
-                 "trajlo_convert: the estimator got lost at %s s: %zu poses from there on are left "
-                 "out (--keep_lost keeps them)\n",
-                 FormatSeconds(*result.lost_at_ns).c_str(), result.poses_left_out);
+                 "trajlo_convert: the estimator got lost at %s s: %s left out from there on "
+                 "(--keep_lost keeps them)\n",
+                 FormatSeconds(*result.lost_at_ns).c_str(),
+                 CountOf(result.poses_left_out, "pose is", "poses are").c_str());
   }
 }
 
@@ -118,17 +120,19 @@ class Replay {
     }
     if (counts_.outside + counts_.in_pause > 0) {
       std::fprintf(stderr,
-                   "trajlo_convert: %zu points are left out: %zu before or behind the trajectory, "
+                   "trajlo_convert: %s left out: %zu before or after the trajectory, "
                    "%zu within pauses\n",
-                   counts_.outside + counts_.in_pause, counts_.outside, counts_.in_pause);
+                   CountOf(counts_.outside + counts_.in_pause, "point is", "points are").c_str(),
+                   counts_.outside, counts_.in_pause);
     }
     const bool differs =
         !was_stopped_ && result_.scans_read && *result_.scans_read != report.scans_read;
     if (differs) {
       std::fprintf(stderr,
-                   "trajlo_convert: the recording is not what it was: %zu scans were read, %zu "
-                   "when it was run\n",
-                   report.scans_read, *result_.scans_read);
+                   "trajlo_convert: the recording has changed: %s read, %zu when it "
+                   "was run\n",
+                   CountOf(report.scans_read, "scan was", "scans were").c_str(),
+                   *result_.scans_read);
     }
     return differs || report.IsPartial() ? ExitCode::kPartialInput : ExitCode::kOk;
   }
@@ -168,8 +172,8 @@ ExitCode WriteMap(const ConvertRequest& request, const RunResult& result,
   WriteMapFile(request.output, surfels, ColorsOf(surfels, request.exports.color),
                request.WhatIfExists());
   if (!request.quiet) {
-    std::printf("map of %zu points, one per voxel of %g m, from %.2f million, in %s\n",
-                surfels.size(), VoxelOf(request, result),
+    std::printf("map of %s, one per voxel of %g m, from %.2f million, in %s\n",
+                CountOf(surfels.size(), "point").c_str(), VoxelOf(request, result),
                 1e-6 * static_cast<double>(replay.counts().placed), request.output.c_str());
   }
   return code;
@@ -194,7 +198,8 @@ ExitCode WriteScanFolder(const ConvertRequest& request, const RunResult& result,
   const ExitCode code = replay.Judge();
   for (const auto& folder : folders) folder->Close();
   if (!request.quiet) {
-    std::printf("%zu deskewed scans in the %s frame, and their poses, in %s\n", replay.scans(),
+    std::printf("%s in the %s frame, and their poses, in %s\n",
+                CountOf(replay.scans(), "deskewed scan").c_str(),
                 request.exports.frame == PointFrame::kBody ? "body" : "world",
                 request.output.c_str());
   }
@@ -215,8 +220,9 @@ ExitCode WritePointsToBag(const ConvertRequest& request, const RunResult& result
   std::size_t written = 0;
   if (request.exports.map) written = bag->WriteMap(map.Surfels());
   if (!request.quiet) {
-    std::printf("%zu deskewed scans, map of %zu points\n",
-                request.exports.scans ? replay.scans() : 0, written);
+    std::printf("%s, map of %s\n",
+                CountOf(request.exports.scans ? replay.scans() : 0, "deskewed scan").c_str(),
+                CountOf(written, "point").c_str());
     if (written < map.size()) std::printf("the map has %zu points; thinned\n", map.size());
   }
   return code;
@@ -234,8 +240,8 @@ ExitCode WriteBag(const ConvertRequest& request, const RunResult& result,
   bag.Finish();
   output->Close();
   if (!request.quiet) {
-    std::printf("%zu poses as TF, odometry and path, in %s\n", result.trajectory.poses().size(),
-                request.output.c_str());
+    std::printf("%s as TF, odometry and path, in %s\n",
+                CountOf(result.trajectory.poses().size(), "pose").c_str(), request.output.c_str());
   }
   return code;
 }

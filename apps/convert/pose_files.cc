@@ -8,6 +8,7 @@
 #include "apps/print_warnings.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_file.h"
 #include "core/io/trajectory_writer.h"
@@ -38,7 +39,9 @@ ExitCode WritePoseFile(const ConvertRequest& request, const std::vector<StampedP
     times.Commit();
     if (!request.quiet) std::printf("times in %s\n", times_path.c_str());
   }
-  if (!request.quiet) std::printf("%zu poses in %s\n", poses.size(), request.output.c_str());
+  if (!request.quiet) {
+    std::printf("%s in %s\n", CountOf(poses.size(), "pose").c_str(), request.output.c_str());
+  }
   return ExitCode::kOk;
 }
 

@@ -10,6 +10,7 @@
 #include "core/evaluation/evaluation_error.h"
 #include "core/export/run_result.h"
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/scan_stamps.h"
 #include "core/report/draw_script.h"
 
@@ -32,8 +33,8 @@ NamedPoses Read(const std::filesystem::path& path, TrajectoryFormat format,
     file.t_ns = ReadStampsFile(request.times);
     if (file.t_ns.size() != file.T_world_body.size()) {
       throw InputError(request.times,
-                       "has " + std::to_string(file.t_ns.size()) + " stamps, and " + path.string() +
-                           " " + std::to_string(file.T_world_body.size()) + " poses",
+                       "has " + CountOf(file.t_ns.size(), "stamp") + ", and " + path.string() +
+                           " " + CountOf(file.T_world_body.size(), "pose"),
                        "There must be one stamp for each line.");
     }
   }

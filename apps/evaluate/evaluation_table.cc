@@ -42,7 +42,7 @@ std::string Line(const char* name, const std::string& text) {
 }
 
 std::string TrajectoryText(const TrajectorySummary& t) {
-  return t.file + " (" + t.format + ", " + std::to_string(t.poses) + " poses)";
+  return t.file + " (" + t.format + ", " + CountOf(t.poses, "pose") + ")";
 }
 
 std::string ComparedText(const EvaluateRequest& request, const EvaluationReport& report) {
@@ -62,7 +62,7 @@ std::string ComparedText(const EvaluateRequest& request, const EvaluationReport&
   }
   text += std::string("; alignment ") + AlignmentName(o.alignment.kind);
   if (o.alignment.first_pairs > 0) {
-    text += FormatText(" of the first %zu pairs", o.alignment.first_pairs);
+    text += " of the first " + CountOf(o.alignment.first_pairs, "pair");
   }
   if (o.alignment.first_seconds > 0.0) {
     text += FormatText(" of the first %g s", o.alignment.first_seconds);

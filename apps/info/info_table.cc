@@ -16,10 +16,6 @@ namespace {
 constexpr std::size_t kPrintedGaps = 5;
 constexpr std::size_t kPrintedWarnings = 20;
 
-std::string Plural(std::size_t count, const char* noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string Line(const char* label, const std::string& text) {
   return FormatText("  %-10s", label) + text + "\n";
 }
@@ -109,8 +105,8 @@ std::string StampLines(const StampSummary& stamps) {
                           FormatSeconds(stamps.gaps[i].after_ns) + " s");
   }
   if (stamps.gaps.size() > kPrintedGaps) {
-    lines += Line(
-        "", FormatText("and %zu more gaps (--json lists them)", stamps.gaps.size() - kPrintedGaps));
+    lines += Line("", "and " + CountOf(stamps.gaps.size() - kPrintedGaps, "more gap") +
+                          " (--json lists all)");
   }
   if (const auto& delay = stamps.recorded_after_s) {
     lines += Line("recorded", FormatText("%.4g s after the stamp (%.4g to %.4g s)", delay->median,
@@ -184,7 +180,7 @@ std::string CloudBlock(const CloudInspection& cloud, std::size_t lidar) {
 
 std::string InfoTable(const RecordingInspection& recording, const std::string& program_folder) {
   std::string table = recording.path + ": " + FormatText("%.3f s, ", recording.duration_s) +
-                      Plural(recording.topics.size(), "topic") +
+                      CountOf(recording.topics.size(), "topic") +
                       (recording.is_quick ? ", of which the first messages were read\n" : "\n");
   table += TopicTable(recording);
   for (std::size_t i = 0; i < recording.clouds.size(); ++i) {
@@ -195,8 +191,8 @@ std::string InfoTable(const RecordingInspection& recording, const std::string& p
     table += "  ! " + recording.warnings[i] + "\n";
   }
   if (recording.damaged) {
-    table += FormatText("  ! damaged: everything that can be read is shown (%llu bytes are lost)\n",
-                        static_cast<unsigned long long>(recording.bytes_lost));
+    table += "  ! damaged: everything that can be read is shown (" +
+             CountOf(recording.bytes_lost, "byte") + " lost)\n";
   }
   const RunAdvice advice = AdviseRun(recording);
   if (advice.command.empty()) return table + "\nno point clouds: there is nothing to run on\n";

@@ -5,6 +5,7 @@
 
 #include "core/comparison/forms/ceres_form_solver.h"
 #include "core/io/atomic_file.h"
+#include "core/io/format_text.h"
 #include "core/io/point_cloud_writer.h"
 #include "core/io/rig_yaml.h"
 #include "core/report/flag_warnings.h"
@@ -144,12 +145,12 @@ void Run::Summarise() const {
   s.warnings = s.times.remarks;
   const std::string odd_stamps = s.OddStamps();
   if (!odd_stamps.empty()) {
-    s.warnings.push_back("of " + std::to_string(s.times.scans) + " scans: " + odd_stamps);
+    s.warnings.push_back("of " + CountOf(s.times.scans, "scan") + ": " + odd_stamps);
   }
   s.warnings.insert(s.warnings.end(), s.read.warnings.begin(), s.read.warnings.end());
   if (sampler_.scans_without_pose() > 0) {
-    s.warnings.push_back(std::to_string(sampler_.scans_without_pose()) +
-                         " scans have no pose: repeated, out of order, or without points");
+    s.warnings.push_back(CountOf(sampler_.scans_without_pose(), "scan has", "scans have") +
+                         " no pose: repeated, out of order, or without points");
   }
   const std::vector<ControlPose>& poses = odometry_.trajectory().poses();
   if (!poses.empty()) {

@@ -42,7 +42,7 @@ void JudgeOutcome(bool interrupted, RunSummary* s) {
     End(ExitCode::kInterrupted, "interrupted", "a signal ended the run early", s);
   } else if (s->points.received == 0) {
     End(ExitCode::kInputUnreadable, "no_usable_points",
-        "no points were read: the scans are empty, or input.start_s lies behind their end", s);
+        "no points were read: the scans are empty, or input.start_s lies after their end", s);
   } else if (!s->begin_ns || s->points.Kept() == 0) {
     End(ExitCode::kInputUnreadable, "no_usable_points",
         "none of the " + std::to_string(s->points.received) +

@@ -53,7 +53,7 @@ std::vector<SolverVariant> LoadVariants(const std::filesystem::path& path, const
     if (!is_file_name || !is_new) {
       throw ConfigError(Where(path, item),
                         "the name '" + variant.name + "' " +
-                            (is_new ? "cannot be that of a folder in a list" : "is there twice"));
+                            (is_new ? "cannot be that of a folder in a list" : "appears twice"));
     }
     RunConfig config = base;
     ApplyOverrides(variant.settings, &config, Where(path, item));

@@ -15,7 +15,7 @@ std::string ReadConfigFile(const std::filesystem::path& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error && size > kLargest) {
     throw ConfigError(path.string(), "this file has " + std::to_string(size / 1'000'000) +
-                                         " MB, and is no configuration");
+                                         " MB, and is not a configuration");
   }
   try {
     return std::string(ReadFileBytes(path).view());

@@ -58,7 +58,7 @@ void CheckRotation(const YAML::Node& node, const Eigen::Matrix3d& R) {
                                 "differs from the identity by " +
                                     NumberText(error)
                               : "it mirrors, its determinant is " + NumberText(determinant);
-  throw ErrorAt(node, "the 3x3 part of the matrix is no rotation: " + why);
+  throw ErrorAt(node, "the 3x3 part of the matrix is not a rotation: " + why);
 }
 
 SE3 ParseMatrix(const YAML::Node& node) {

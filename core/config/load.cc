@@ -46,7 +46,7 @@ class Loader {
       if (!IsSection(key)) {
         Set(key, entry.first, entry.second);
       } else if (!seen_.insert(key).second) {
-        Fail(entry.first, "the section '" + key + "' is there twice");
+        Fail(entry.first, "the section '" + key + "' appears twice");
       } else if (entry.second.IsMap()) {
         Walk(key + ".", entry.second);
       } else if (!entry.second.IsNull()) {  // A section may be empty.

@@ -34,7 +34,7 @@ void TakeSummary(const fs::path& path, RunResult* result) {
       result->lost_at_ns = ParseDecimalNs(lost_at_s.get<std::string>(), 1'000'000'000);
     }
   } catch (const Json::exception& error) {
-    throw InputError(path, std::string("this is no summary of a run: ") + error.what(),
+    throw InputError(path, std::string("this is not the summary of a run: ") + error.what(),
                      "Give a folder that trajlo_run wrote.");
   }
 }
@@ -95,8 +95,8 @@ void TakePoses(const fs::path& path, const std::map<std::int64_t, unsigned>& fla
                          : "there is no pose",
                      result->poses_left_out > 0 ? "--keep_lost takes them all the same." : "");
   }
-  // No window ends at the first pose, nor where a pause begins and ends.
-  result->has_control_poses = 2 * estimated >= result->trajectory.poses().size();
+  // No window ends at the first pose, nor where a pause begins and ends; a short run has none.
+  result->has_control_poses = flags.empty() || 2 * estimated >= result->trajectory.poses().size();
 }
 
 }  // namespace

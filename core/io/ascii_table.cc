@@ -5,6 +5,8 @@
 #include <charconv>
 #include <limits>
 
+#include "core/io/format_text.h"
+
 namespace trajlo {
 namespace {
 
@@ -129,7 +131,7 @@ PointTable ParseAsciiTable(std::string_view text, const std::vector<AsciiField>&
     table.damage = std::to_string(declared_count) + " points declared, " +
                    std::to_string(table.count) + " readable";
     if (bad_rows > 0) {
-      table.damage += ", " + std::to_string(bad_rows) + " unreadable rows, the first is row " +
+      table.damage += ", " + CountOf(bad_rows, "unreadable row") + ", the first is row " +
                       std::to_string(first_bad_row);
     }
   }

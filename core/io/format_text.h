@@ -22,4 +22,12 @@ namespace trajlo {
   return text;
 }
 
+/// "1 scan", "2 scans"; "1 scan is" with `many` "scans are", "2 scans are".
+template <typename Integer>
+std::string CountOf(Integer count, const std::string& one, const std::string& many = {}) {
+  const std::string text = std::to_string(count) + " ";
+  if (count == 1) return text + one;
+  return text + (many.empty() ? one + "s" : many);
+}
+
 }  // namespace trajlo

@@ -52,7 +52,7 @@ std::vector<Eigen::Affine3d> ParseKittiPoses(const std::filesystem::path& path,
     const double deviation =
         (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
     if (deviation > kRefuseAbove || R.determinant() < 0.0) {
-      fail("holds no rotation in columns 1-3, 5-7, 9-11", "Is this a file of poses?");
+      fail("has no rotation in columns 1-3, 5-7, 9-11", "Is this a file of poses?");
     }
     if (deviation > kProjectAbove) {
       pose.linear() = NearestRotation(R);

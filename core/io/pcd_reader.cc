@@ -153,14 +153,14 @@ class HeaderParser {
   std::uint64_t ParsePoints() const {
     if (!lines_.points.empty()) {
       if (const auto points = ParseCount(lines_.points.front())) return *points;
-      Fail("POINTS is no usable number");
+      Fail("POINTS is not a usable number");
     }
     if (lines_.width.empty()) Fail("neither POINTS nor WIDTH");
     const auto width = ParseCount(lines_.width.front());
     const auto height =
         lines_.height.empty() ? std::optional<std::uint64_t>(1) : ParseCount(lines_.height.front());
     if (!width || !height || (*height > 0 && *width > (1ULL << 40) / *height)) {
-      Fail("WIDTH and HEIGHT are no usable numbers");
+      Fail("WIDTH and HEIGHT are not usable numbers");
     }
     return *width * *height;
   }

@@ -62,7 +62,7 @@ void NoteMissing(const PlyElement& vertex, std::size_t bytes_there, PointTable* 
   if (table->count == vertex.count) return;
   table->damage = std::to_string(vertex.count) + " vertices declared, " +
                   std::to_string(table->count) + " whole ones in the " +
-                  std::to_string(bytes_there) + " bytes behind the header";
+                  std::to_string(bytes_there) + " bytes after the header";
 }
 
 /// Rows of one size: the columns point straight into the file.

@@ -64,8 +64,8 @@ void ScanFolder::Probe() {
   }
   if (probe.readable() == 0) {
     throw InputError(listing_.folder,
-                     "none of the " + std::to_string(listing_.files.size()) +
-                         " scans can be read; the first says: " + first_problem,
+                     "no scan of " + std::to_string(listing_.files.size()) +
+                         " can be read; the first says: " + first_problem,
                      "");
   }
   probe.set_period_s(TypicalPeriod(stamps_.t_ns));
@@ -93,7 +93,7 @@ void ScanFolder::SetRegularStamps() {
 
 void ScanFolder::Describe(const std::filesystem::path& path) {
   description_ = path.string() + ": lidar " + std::to_string(options_.lidar_id) + " is " +
-                 std::to_string(listing_.files.size()) + " scans (" + listing_.extension + ") in " +
+                 CountOf(listing_.files.size(), "scan") + " (" + listing_.extension + ") in " +
                  listing_.folder.string() + "\n";
   const bool by_points = stamps_.t_ns.empty();
   description_ += "stamps: " + (by_points ? "the earliest point of each scan" : stamps_.source);

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/point_file.h"
 #include "core/io/point_table.h"
 
@@ -98,8 +99,9 @@ ScanListing MakeListing(const fs::path& folder, const FolderContent& content) {
   }
   const std::size_t left_out = content.ScanCount() - listing.files.size();
   if (left_out > 0) {
-    listing.notes.push_back(std::to_string(left_out) + " point files in " + folder.string() +
-                            " do not end in " + listing.extension + " and are left out");
+    listing.notes.push_back("left out: " + CountOf(left_out, "point file") + " in " +
+                            folder.string() + " that " + (left_out == 1 ? "does" : "do") +
+                            " not end in " + listing.extension);
   }
   SortNaturally(&listing.files);
   return listing;
@@ -156,8 +158,8 @@ ScanListing ListScans(const fs::path& path) {
   if (known.size() == 1) {
     ScanListing listing = MakeListing(known.front(), Look(known.front()));
     if (content.ScanCount() > 0) {
-      listing.notes.push_back(std::to_string(content.ScanCount()) + " point files in " +
-                              path.string() + " itself are left out");
+      listing.notes.push_back("left out: " + CountOf(content.ScanCount(), "point file") + " in " +
+                              path.string() + " itself");
     }
     return listing;
   }
@@ -175,8 +177,8 @@ ScanListing ListScans(const fs::path& path) {
   if (others.size() > 1) FailSeveral(path, others);
   if (others.size() == 1) return MakeListing(others.front(), Look(others.front()));
   throw InputError(path,
-                   "no scans: " + std::to_string(content.subfolders.size()) + " subfolders and " +
-                       std::to_string(content.other_files) + " files of other kinds",
+                   "no scans: " + CountOf(content.subfolders.size(), "subfolder") + " and " +
+                       CountOf(content.other_files, "file of another kind", "files of other kinds"),
                    kMend);
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/io/errors.h"
 #include "core/io/file_bytes.h"
+#include "core/io/format_text.h"
 #include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_of_name.h"
@@ -156,9 +157,8 @@ std::vector<std::int64_t> ReadLinesFor(const ScanListing& listing, const fs::pat
   std::vector<std::int64_t> lines = ReadStampsFile(file);
   if (lines.size() >= listing.files.size()) return lines;
   throw InputError(file,
-                   std::to_string(lines.size()) + " stamps for " +
-                       std::to_string(listing.files.size()) + " scans in " +
-                       listing.folder.string(),
+                   CountOf(lines.size(), "stamp") + " for " +
+                       CountOf(listing.files.size(), "scan") + " in " + listing.folder.string(),
                    "Complete the stamps file, or take out the scans that it does not cover.");
 }
 
@@ -170,11 +170,10 @@ void WarnIfNotIncreasing(ScanStamps* stamps) {
     if (backward++ == 0) first = i;
   }
   if (backward == 0) return;
-  stamps->warnings.push_back(
-      stamps->source + ": " + std::to_string(backward) +
-      " stamps are not later than the one before; the first is that of scan " +
-      std::to_string(first) + ", " + FormatSeconds(stamps->t_ns[first]) + " after " +
-      FormatSeconds(stamps->t_ns[first - 1]));
+  stamps->warnings.push_back(stamps->source + ": " + CountOf(backward, "stamp is", "stamps are") +
+                             " not later than the one before; the first is that of scan " +
+                             std::to_string(first) + ", " + FormatSeconds(stamps->t_ns[first]) +
+                             " after " + FormatSeconds(stamps->t_ns[first - 1]));
 }
 
 }  // namespace
@@ -191,7 +190,7 @@ std::vector<std::int64_t> ReadStampsFile(const fs::path& path) {
     if (!t_ns) t_ns = ParseDateTimeNs(stamp);
     if (!t_ns) {
       throw InputError(path,
-                       "line " + std::to_string(lines.number()) + " is no stamp: '" +
+                       "line " + std::to_string(lines.number()) + " is not a stamp: '" +
                            std::string(stamp.substr(0, 60)) + "'",
                        "Write one stamp a line: seconds, nanoseconds, or "
                        "YYYY-MM-DD hh:mm:ss.nnnnnnnnn.");
@@ -216,8 +215,8 @@ ScanStamps FindStamps(const fs::path& stamps_file, ScanListing* listing) {
   }
   RequireTheSameGaps(*listing, stamps.t_ns, file);
   if (lines.size() > scans) {
-    stamps.warnings.push_back(stamps.source + ": " + std::to_string(lines.size()) + " stamps for " +
-                              std::to_string(scans) + " scans; scan " +
+    stamps.warnings.push_back(stamps.source + ": " + CountOf(lines.size(), "stamp") + " for " +
+                              CountOf(scans, "scan") + "; scan " +
                               listing->files.back().filename().string() + " gets " +
                               FormatSeconds(stamps.t_ns.back()));
   }

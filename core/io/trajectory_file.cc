@@ -7,6 +7,7 @@
 #include "core/io/errors.h"
 #include "core/io/euroc_csv.h"
 #include "core/io/file_bytes.h"
+#include "core/io/format_text.h"
 #include "core/io/kitti_poses.h"
 #include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
@@ -62,7 +63,7 @@ void Condense(std::size_t from, std::vector<std::string>* warnings) {
   if (warnings->size() <= from + kWarningsPerFile) return;
   const std::size_t more = warnings->size() - from - kWarningsPerFile;
   warnings->resize(from + kWarningsPerFile);
-  warnings->back() += " (and " + std::to_string(more) + " more lines)";
+  warnings->back() += " (and " + CountOf(more, "more line") + ")";
 }
 
 }  // namespace

@@ -29,11 +29,12 @@ double Share(std::size_t done, std::size_t all) {
 std::string ProgressLine(const Progress& progress, int columns) {
   const double share = Share(progress.scan, progress.scans);
   const double speed = progress.wall_s > 0.0 ? progress.data_s / progress.wall_s : 0.0;
+  const std::string of = progress.of.empty() ? "" : std::string(progress.of) + "  ";
   std::string line =
       FormatText("%3.0f %%  scan %zu/%zu  %.1f x real time  inliers %.0f %%", 100.0 * share,
                  progress.scan, progress.scans, speed, 100.0 * progress.inlier_share);
   // The bar takes what the numbers leave; the last column stays free, or the line would wrap.
-  const int width = std::min(40, columns - 1 - static_cast<int>(line.size()) - 3);
+  const int width = std::min(40, columns - 1 - static_cast<int>(of.size() + line.size()) - 3);
   if (width >= 5) {
     const auto filled = static_cast<std::size_t>(share * width);
     std::string bar(filled, '=');
@@ -41,6 +42,7 @@ std::string ProgressLine(const Progress& progress, int columns) {
     bar.resize(static_cast<std::size_t>(width), ' ');
     line = "[" + bar + "] " + line;
   }
+  line.insert(0, of);
   return line.substr(0, static_cast<std::size_t>(std::max(columns - 1, 0)));
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace trajlo {
 
@@ -14,6 +15,7 @@ struct Progress {
   double data_s = 0.0;    ///< Length of the data processed.
   double wall_s = 0.0;    ///< Time that this took.
   double inlier_share = 0.0;
+  std::string_view of = {};  ///< Which of several runs this is; stands first.
 };
 
 /// "[=====>    ]  45 %  scan 67/150  3.2 x real time  inliers 82 %", within `columns`.

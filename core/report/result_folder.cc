@@ -43,7 +43,7 @@ void CheckResultFolder(const fs::path& folder, const std::vector<fs::path>& file
   if (other != files.end() && !exists(files.front())) {
     throw OutputError(folder, "holds " + other->filename().string() + ", but no " +
                                   files.front().filename().string() +
-                                  ", so it is no earlier result; choose another --output, or "
+                                  ", so it is not an earlier result; choose another --output, or "
                                   "remove the file if nobody needs it");
   }
   if (overwrite) return;

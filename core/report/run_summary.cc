@@ -34,7 +34,7 @@ std::string RunSummary::OddStamps() const {
   };
   add(times.reordered, "put in order");
   add(times.retimed, "given the time between their neighbours (wrong stamps)");
-  add(times.assumed, "given an assumed time (the stamps stand still)");
+  add(times.assumed, "given an assumed time (the stamps do not change)");
   add(times.moved, "moved with the clock, which had made a step");
   add(times.misfits, "dropped (their stamps fit nowhere)");
   add(times.repeated, "dropped (repeated)");
@@ -48,12 +48,10 @@ std::string RunSummary::MissingInput() const {
   std::vector<std::string> parts;
   if (read.file_is_cut) parts.emplace_back("a part of the file is missing or broken");
   if (read.scans_damaged > 0) {
-    parts.push_back(std::to_string(read.scans_damaged) +
-                    (read.scans_damaged == 1 ? " scan is damaged" : " scans are damaged"));
+    parts.push_back(CountOf(read.scans_damaged, "scan is", "scans are") + " damaged");
   }
   if (read.scans_skipped > 0) {
-    parts.push_back(std::to_string(read.scans_skipped) +
-                    (read.scans_skipped == 1 ? " scan" : " scans") + " could not be read at all");
+    parts.push_back(CountOf(read.scans_skipped, "scan") + " could not be read at all");
   }
   if (ShareWithWrongTimes() > kSizeableShare) {
     parts.push_back(std::to_string(std::lround(100.0 * ShareWithWrongTimes())) +

@@ -24,7 +24,7 @@ std::string Dropped(const RunSummary& s) {
   AddCount(s.points.too_late, "too late", &text);
   AddCount(s.points.wrong_time, "at wrong times", &text);
   AddCount(static_cast<std::int64_t>(s.read.points_without_time), "without a possible time", &text);
-  return text.empty() ? "nothing" : text + " of " + std::to_string(s.points.received) + " points";
+  return text.empty() ? "nothing" : text + " of " + CountOf(s.points.received, "point");
 }
 
 /// "gap 1 (2.0 s), ...": poses, and the time that they stand for.
@@ -33,7 +33,7 @@ std::string Flagged(const PoseFlags& flags) {
   for (const auto& [name, total] : flags.totals()) {
     if (total.poses == 0) continue;
     text +=
-        (text.empty() ? "" : ", ") + name + FormatText(" %zu (%.1f s)", total.poses, total.seconds);
+        (text.empty() ? "" : ", ") + name + FormatText(" %zu (%.2f s)", total.poses, total.seconds);
   }
   return text.empty() ? text : text + "; see flags.csv";
 }
@@ -52,20 +52,23 @@ std::string Stages(const WindowTotals& w) {
 
 std::string SummaryTable(const RunSummary& s) {
   std::string table;
-  table +=
-      Line("input", FormatText("%zu of %zu scans, %.2f million points, %.1f s", s.read.scans_read,
-                               s.read.scans_listed, 1e-6 * static_cast<double>(s.points.received),
-                               s.DataSeconds()));
+  table += Line("input",
+                FormatText("%zu of ", s.read.scans_read) + CountOf(s.read.scans_listed, "scan") +
+                    FormatText(", %.2f million points, %.1f s",
+                               1e-6 * static_cast<double>(s.points.received), s.DataSeconds()));
   table += Line("dropped", Dropped(s));
   const std::string stamps = s.OddStamps();
   if (!stamps.empty()) table += Line("scans", stamps);
-  table += Line("trajectory", FormatText("%zu poses, %.2f m long, ends %.2f m from its start",
-                                         s.poses_written, s.path_length_m, s.distance_to_start_m));
-  table += Line("windows",
-                std::to_string(s.windows.windows) +
-                    FormatText(", %.0f points each, %.0f %% inliers, %.1f rounds",
-                               s.windows.Mean(s.windows.points), 100.0 * s.windows.InlierShare(),
-                               s.windows.Mean(s.windows.rounds)));
+  table += Line("trajectory", CountOf(s.poses_written, "pose") +
+                                  FormatText(", %.2f m long, ends %.2f m from its start",
+                                             s.path_length_m, s.distance_to_start_m));
+  table += Line("windows", s.windows.windows == 0
+                               ? "none"
+                               : std::to_string(s.windows.windows) +
+                                     FormatText(", %.0f points each, %.0f %% inliers, %.1f rounds",
+                                                s.windows.Mean(s.windows.points),
+                                                100.0 * s.windows.InlierShare(),
+                                                s.windows.Mean(s.windows.rounds)));
   const std::string flagged = Flagged(s.flags);
   if (!flagged.empty()) table += Line("flagged", flagged);
   const std::string corrections = CorrectionsText(s.rig);
@@ -79,8 +82,8 @@ std::string SummaryTable(const RunSummary& s) {
   table += Line("speed", speed);
   const std::string stages = Stages(s.windows);
   if (!stages.empty()) table += Line("", stages);
-  table += Line("memory", FormatText("%.0f MB at most; %zu points in the map", s.peak_memory_mb,
-                                     s.map_points));
+  table += Line("memory", FormatText("%.0f MB at most; ", s.peak_memory_mb) +
+                              CountOf(s.map_points, "point") + " in the map");
   if (!s.warnings.empty()) {
     table += Line("warnings", FormatText("%zu, listed in run.json", s.warnings.size()));
   }

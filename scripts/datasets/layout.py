@@ -11,6 +11,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from trajlo_batch import command_line  # noqa: E402
 from trajlo_batch.places import programs_in  # noqa: E402
+from trajlo_report.names import counted  # noqa: E402, F401
 
 EXIT_CODES = """Exit codes: 0 everything is there, 1 wrong usage, 2 nothing was found, 3 some is
 missing or unfit (the rest is laid out), 5 a link or file cannot be written."""
@@ -150,7 +151,7 @@ def lay_out(items, downloads, data, programs, after=None):
 
 
 def main(description, items, after=None, remarks=""):
-    """The command of one data set. `description` says where it is had and how it is laid out."""
+    """The command of one data set. `description` says where to download it and how it is laid out."""
     parser = command_line.Parser(description=f"{description}\n\n{EXIT_CODES}")
     parser.add_argument("downloads", nargs="?", type=pathlib.Path,
                         help="the folder with what you downloaded, unpacked")

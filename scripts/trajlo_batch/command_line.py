@@ -12,30 +12,35 @@ from trajlo_batch import results
 from trajlo_batch.places import BUILD, ROOT, WORK, Places
 from trajlo_batch.plan import DONE
 from trajlo_batch.yaml_lines import SuiteError
-from trajlo_report.command_line import Parser, positive, sentence  # noqa: F401
+from trajlo_report.command_line import (  # noqa: F401
+    Parser, positive, sentence, unless_unread)
 from trajlo_report.files import WriteError
+from trajlo_report.names import counted
 
 
 def add_work_arguments(parser, run_name):
     """Where to work, on what, and how; `run_name` says how users name a run."""
     parser.add_argument("-j", "--jobs", type=positive, default=len(os.sched_getaffinity(0)),
                         help="cores to use, with --slurm jobs at a time; default: all cores")
-    parser.add_argument("--output", type=pathlib.Path, help="default: runs/<name of the file>")
+    parser.add_argument("--output", type=pathlib.Path,
+                        help="default: the name of the file, below $TRAJLO_RUNS or else runs/ of "
+                        "the project (of an installation: of the current folder)")
     parser.add_argument("--data", type=pathlib.Path,
                         default=os.environ.get("TRAJLO_DATASETS", WORK / "data"),
-                        help="the folder of data sets; default: $TRAJLO_DATASETS, else data/")
+                        help="the folder of data sets; default: $TRAJLO_DATASETS, else data/ "
+                        "beside runs/")
     add_build_argument(parser)
     parser.add_argument("--list", action="store_true", help="show the runs and stop")
     parser.add_argument("--command", metavar=run_name.upper(),
                         help="print how to repeat a run and stop")
-    parser.add_argument("--report", action="store_true", help="only write tables and page again")
-    parser.add_argument("--retry", action="store_true", help="do again what has an x by its exit")
+    parser.add_argument("--report", action="store_true", help="only rewrite tables and page")
+    parser.add_argument("--retry", action="store_true", help="repeat runs that failed, got lost or timed out")
     parser.add_argument("--any-version", action="store_true",
-                        help="keep runs that another build of the programs has done")
+                        help="keep runs of other builds of the programs")
     parser.add_argument("--drop-recordings", action="store_true",
                         help="delete each simulated recording as soon as its runs are done")
     parser.add_argument("--slurm", action="store_true", help="submit the jobs with sbatch")
-    parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for it")
+    parser.add_argument("--sbatch", default="", metavar="ARGUMENTS", help="more arguments for sbatch")
 
 
 def add_build_argument(parser):
@@ -81,13 +86,13 @@ def alike(missing):
 
 
 def say_missing(suite, missing):
-    """Which sequences have no data, what was looked for, and where the data can be had."""
+    """Which sequences have no data, what was looked for, and where to download the data."""
     if not missing:
         return
     for paths, names in alike(missing).items():
         print(f"{', '.join(names)}: no data; looked for {', '.join(paths)}", file=sys.stderr)
-    print(f"{len(missing)} of {len(suite.sequences)} sequences have no data. --data or "
-          f"TRAJLO_DATASETS names the folder that they are below. {suite.needs}".rstrip(),
+    print(f"No data for {len(missing)} of {counted(len(suite.sequences), 'sequence')}. --data or "
+          f"TRAJLO_DATASETS names the folder that holds them. {suite.needs}".rstrip(),
           file=sys.stderr)
     helper = ROOT / "scripts" / "datasets" / suite.name
     if helper.is_file():
@@ -113,7 +118,7 @@ def guarded(parser, work, how_to_go_on="the same command goes on where this one 
     signal.signal(signal.SIGTERM, interrupt)
     arguments = parser.parse_args()
     try:
-        return work(arguments)
+        return unless_unread(work, arguments)
     except SuiteError as error:
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 1

@@ -4,6 +4,7 @@ import shutil
 import time
 
 from trajlo_batch.results import FAILED
+from trajlo_report import names
 
 
 def clock(seconds):
@@ -40,7 +41,7 @@ class ProgressBar:
         self.begin = time.monotonic()
 
     def line(self, done, failed, complete, elapsed, width):
-        text = f" {done}/{self.total} runs, {failed} x, {clock(elapsed)}"
+        text = f" {done}/{names.counted(self.total, 'run')}, {failed} x, {clock(elapsed)}"
         if done == self.total and complete < self.total:
             text += f", {complete} of them complete"
         new = done - self.already

@@ -6,7 +6,8 @@ import math
 import re
 import statistics
 
-from trajlo_batch import results
+from trajlo_batch import results, table_formats
+from trajlo_report import names
 
 X, ABSENT, PENDING = "x", "-", "…"
 GOOD = (results.OK, results.NO_TRUTH)
@@ -100,6 +101,25 @@ def average_cell(cells, decimals):
     return Cell(text, statistics.fmean(values))
 
 
+def means_over_the_same(table, average, groups, decimals):
+    """Notes: where ours leaves sequences out of its average, the means of all over the rest."""
+    places = [index for index, column in enumerate(table.columns) if column in groups]
+    absent = {line.label: [index for index in places if math.isnan(line.cells[index].value)]
+              for line in table.lines if line.ours}
+    notes = []
+    for left_out in {tuple(left_out): None for left_out in absent.values()}:
+        used = [index for index in places if index not in left_out]
+        means = [(table_formats.heading(table, line), [line.cells[index].value for index in used])
+                 for line in table.lines]
+        means = [f"{label} {statistics.fmean(values):.{decimals}f}" for label, values in means
+                 if values and not any(map(math.isnan, values))]
+        if left_out and len(means) > 1:
+            part = [table.columns[index] for index in min(left_out, used, key=len)]
+            word = "over" if len(used) < len(left_out) else "without"
+            notes.append(f"{average} {word} {', '.join(part)}: {', '.join(means)}.")
+    return notes
+
+
 def mark(lines, metric):
     """Marks the best of each column, and of each category when there are several: by all of their
     digits, also where numbers are printed alike."""
@@ -133,7 +153,7 @@ def seeds_of_cells(rows):
 def say_fewer_seeds(cell, count, most):
     """A cell of fewer seeds than others says so."""
     if 0 < count < most and cell.text not in (ABSENT, PENDING):
-        cell.text += " (1 seed)" if count == 1 else f" ({count} seeds)"
+        cell.text += f" ({names.counted(count, 'seed')})"
 
 
 def seeds_note(suite, rows):
@@ -179,7 +199,11 @@ def compared_table(suite, rows, published):
     lines.sort(key=lambda line: order.index(line.category))
     mark(lines, suite.metric)
     notes = [f"Rows without * are from {published.source}.", *published.notes]
-    return Table(published.caption, list(published.columns), lines, notes)
+    table = Table(published.caption, list(published.columns), lines, notes)
+    if "AVG" in table.columns:
+        groups = {sequence.group for sequence in suite.sequences}
+        notes += means_over_the_same(table, "AVG", groups, published.decimals)
+    return table
 
 
 def suite_table(suite, rows, marked=True):
@@ -197,16 +221,19 @@ def suite_table(suite, rows, marked=True):
         mark(lines, suite.metric)
     notes = [f"{group}: degenerate by construction ({why})" for group, why in degenerate.items()]
     notes += seeds_note(suite, rows)
-    columns = [f"{group} †" if group in degenerate else group for group in groups]
-    return Table(f"{suite.title}: {METRICS.get(suite.metric, suite.metric)}", columns, lines, notes,
-                 transposed=suite.rows == "sequences")
+    table = Table(f"{suite.title}: {METRICS.get(suite.metric, suite.metric)}", groups, lines, notes,
+                  transposed=suite.rows == "sequences")
+    if suite.average:
+        notes += means_over_the_same(table, "average", set(groups[:-1]), suite.decimals)
+    table.columns = [f"{group} †" if group in degenerate else group for group in groups]
+    return table
 
 
 def speed_table(suite, rows):
     """What a second of data costs each run."""
     speed = dataclasses.replace(suite, metric="cpu_s_per_data_second", decimals=2)
     table = suite_table(speed, rows, marked=False)
-    threads = "1 thread" if suite.threads == 1 else f"{suite.threads} threads"
+    threads = names.counted(suite.threads, "thread")
     table.caption = f"{suite.title}: processor time for a second of data [s], {threads} a run"
     table.notes = ["Below 1, one core keeps up with the sensor. Reading the recording and writing "
                    "the results are counted."]

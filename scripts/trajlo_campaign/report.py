@@ -5,7 +5,7 @@ import csv
 
 from trajlo_campaign import judge
 from trajlo_campaign.scenes import CampaignError
-from trajlo_report import page
+from trajlo_report import names, page
 from trajlo_report.files import to_csv, write_atomically
 
 NUMBERS = ("run", "seed", "limit_m", "error_m", "end_error_m", "poses", "poses_wrong",
@@ -63,7 +63,7 @@ def needless(rows):
 
 def summary(rows):
     """The shares as text, a line each."""
-    lines = [f"{len(rows)} runs"]
+    lines = [names.counted(len(rows), "run")]
     lines += [f"  {name:20}{count:6}{share:>9}   {meaning}"
               for name, count, share, meaning in shares(rows)]
     right = sum(row["verdict"] == judge.PARTIAL and row["poses_wrong"] == 0 for row in rows)

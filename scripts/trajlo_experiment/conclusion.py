@@ -9,6 +9,7 @@ import yaml
 
 from trajlo_experiment import analysis
 from trajlo_experiment.findings import level_text
+from trajlo_report import names
 
 
 def setting_text(findings, row):
@@ -16,10 +17,15 @@ def setting_text(findings, row):
                      if row[factor.name] is not None)
 
 
+def parts_of(label):
+    """ "σ", "m" of the label "σ [m]" """
+    parts = re.fullmatch(r"(.+) \[(.+)\]", label)
+    return parts.groups() if parts else (label, "")
+
+
 def level_of(factor, level):
     """ "σ = 0.1 m" of the label "σ [m]" """
-    label = re.fullmatch(r"(.+) \[(.+)\]", factor.label)
-    name, unit = label.groups() if label else (factor.label, "")
+    name, unit = parts_of(factor.label)
     return f"{name} = {level_text(level)} {unit}".rstrip()
 
 
@@ -101,7 +107,7 @@ def ratio_of(levels):
 
 
 def of_runs(level):
-    return f"{level.failed} of {level.runs} runs failed with {level.text}"
+    return f"{level.failed} of {names.counted(level.runs, 'run')} failed with {level.text}"
 
 
 def about_factors(findings):
@@ -114,13 +120,13 @@ def about_factors(findings):
     rest = [level for level in found[most] if math.isfinite(level.mean)]
     lost = [level for level in found[most] if math.isinf(level.mean)] if rest else []
     if lost:
-        said = [f"{most} matters most: " + ", ".join(map(of_runs, lost))
+        said = [f"{parts_of(most)[0]} matters most: " + ", ".join(map(of_runs, lost))
                 + ", and no setting with it ended well on all recordings."]
         if len(rest) > 1:
             said += [f"Between its other values the mean error differs by a factor of "
                      f"{ratio_of(rest):.1f}."]
     elif ratio_of(rest) >= 1.05:
-        said = [f"{most} matters most: between its values the mean error differs by a factor of "
+        said = [f"{parts_of(most)[0]} matters most: between its values the mean error differs by a factor of "
                 f"{ratio_of(rest):.1f}."]
     else:
         said = ["No factor by itself changes the mean error by more than 5 %."]
@@ -177,4 +183,4 @@ def caution(findings):
                 "intervals are given, and small differences may be chance.")
     groups = [group for group, _ in findings.reference.errors]
     seeds = min(map(groups.count, groups))
-    return f"With {seeds} seeds per scenario the intervals are rough." if seeds < 5 else ""
+    return f"With {names.counted(seeds, 'seed')} per scenario the intervals are rough." if seeds < 5 else ""

@@ -9,7 +9,9 @@ from trajlo_batch.yaml_lines import Mapping, SuiteError, check
 SIMULATE = "simulate."  # begins the name of a parameter of the simulated scenario
 FACTOR_KEYS = {"values": list, "from": (int, float), "to": (int, float), "steps": int,
                "scale": str, "whole": bool, "keys": dict, "settings": dict, "label": str}
-UNITS = ("m", "s", "ms", "rad", "deg", "mps")
+# How the keys of options end, and what that means; longer endings first.
+UNITS = {"m2_s3": "m²/s³", "rad2_s3": "rad²/s³", "rad_s": "rad/s", "mps2": "m/s²", "mps": "m/s",
+         "m": "m", "s": "s", "ms": "ms", "ns": "ns", "hz": "Hz", "rad": "rad", "deg": "°"}
 LOG, LINEAR, CHOICE = "log", "linear", "choice"
 # Without a word about the scale, values that span this much are taken as equal ratios.
 WIDE = 8.0
@@ -109,9 +111,11 @@ def read_levels(mapping, key, values):
 
 def default_label(name):
     """The last part of a key, with its unit in brackets."""
-    words = name.rpartition(".")[2].split("_")
-    unit = f" [{words.pop()}]" if len(words) > 1 and words[-1] in UNITS else ""
-    return " ".join(words) + unit
+    key = name.rpartition(".")[2]
+    for ending, unit in UNITS.items():
+        if key.endswith(f"_{ending}"):
+            return f"{key[:-len(ending)].replace('_', ' ')}[{unit}]"
+    return key.replace("_", " ")
 
 
 def scale_of(spec, name, levels):

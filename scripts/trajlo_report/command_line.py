@@ -2,6 +2,7 @@
 """What the command lines of all scripts share: how usage ends, and how files that fail do."""
 import argparse
 import errno
+import os
 import sys
 
 from trajlo_report.files import ReportError, WriteError
@@ -42,11 +43,22 @@ def sentence(error, cannot):
     return f"{error.filename} cannot {cannot}: {why}" + (f"; {mend}" if mend else "")
 
 
+def unless_unread(work, arguments):
+    """work(arguments); where whoever reads its output leaves, as `head` does, that is no error."""
+    try:
+        code = work(arguments)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return NOT_WRITABLE
+
+
 def guarded(parser, work):
     """Calls work(arguments); what cannot be read or written ends with a sentence and its code."""
     arguments = parser.parse_args()
     try:
-        return work(arguments)
+        return unless_unread(work, arguments)
     except ReportError as error:
         said, code = str(error), UNREADABLE
     except WriteError as error:

@@ -123,7 +123,7 @@ def of_runs(free):
         if errors[worst] < 1.02 * errors[best]:
             said.append(f"The position errors are alike ({small_length(errors[best])}).")
         else:
-            said.append(f"Position errors reach from {small_length(errors[best])} ({best}) to "
+            said.append(f"Position errors range from {small_length(errors[best])} ({best}) to "
                         f"{small_length(errors[worst])} ({worst}).")
     return said
 

@@ -17,6 +17,11 @@ def decimals_of(metric):
     return 5 if metric.endswith("_per_m") else 4 if metric.endswith("_m") else 3
 
 
+def counted(count, one, many=""):
+    """ "1 run", "2 runs" """
+    return f"{count} {one if count == 1 else many or one + 's'}"
+
+
 def scenario_title(name):
     """A scenario's name, the sensor after a comma; other names are left as they are."""
     words = name.replace("_", " ")

@@ -3,8 +3,10 @@
 import base64
 import io
 import pathlib
+import re
 
 import jinja2
+import markupsafe
 import PIL.Image
 
 from trajlo_report import names, theme
@@ -52,6 +54,11 @@ def setting(value):
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
+def breakable(text):
+    """Lines of long keys break where their words end."""
+    return markupsafe.Markup(re.sub(r"([._=])", r"\1<wbr>", str(markupsafe.escape(text))))
+
+
 def flatten(tree, prefix=""):
     """Nested mappings and lists as rows (dotted key, value)."""
     rows = []
@@ -71,7 +78,8 @@ def render(template, **values):
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("trajlo_report"), autoescape=True, trim_blocks=True,
         lstrip_blocks=True, undefined=jinja2.ChainableUndefined)
-    environment.filters.update(number=number, setting=setting, data_uri=data_uri, compact_uri=compact_uri,
-                               title=names.title)
+    environment.filters.update(
+        number=number, setting=setting, data_uri=data_uri, compact_uri=compact_uri,
+        breakable=breakable, title=names.title, counted=names.counted)
     return environment.get_template(template).render(theme=theme, decimals_of=names.decimals_of,
-                                                      **values)
+                                                     **values)

@@ -6,7 +6,7 @@ import pathlib
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from trajlo_report import files, view_cloud, view_path
+from trajlo_report import files, names, view_cloud, view_path
 from trajlo_report.frames import Frame, estimate_of, frame_of
 
 
@@ -40,8 +40,8 @@ def drawable(times, positions, quaternions, missing):
         raise files.ReportError("The trajectory has no pose that can be drawn")
     if not near.all():
         far_km = view_cloud.FARTHEST_M / 1000
-        missing.append(f"{np.count_nonzero(~near)} poses lie more than {far_km:.0f} km from the "
-                       "start or nowhere, or have no rotation, and are not drawn.")
+        missing.append(f"Not drawn: {names.counted(np.count_nonzero(~near), 'pose')} more than "
+                       f"{far_km:.0f} km from the start, at no place, or without rotation.")
     return times[near], positions[near], quaternions[near]
 
 

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from trajlo_report import view_path
+from trajlo_report import names, view_path
 
 VERDICTS = {
     0: "The run ended well.",
@@ -57,7 +57,9 @@ def of_input(run_json):
     if not result.get("duration_s"):
         return []
     read, listed = scans.get("read", 0), scans.get("listed", 0)
-    count = f"{read} scans" if read == listed else f"{read} of {listed} scans"
+    count = names.counted(listed, "scan")
+    if read != listed:
+        count = f"{read} of {count}"
     if scans.get("damaged"):
         count += f", {scans['damaged']} of them damaged"
     return [Fact(f"{result['duration_s']:.1f} s", f"of data, {count}")]

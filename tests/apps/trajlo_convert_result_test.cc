@@ -265,7 +265,7 @@ TEST_F(TrajloConvertResult, PosesFromWhereItGotLostAreLeftOutAndTheirPointsToo) 
   const Outcome outcome = Convert({Path("lost"), Path("lost.mcap")});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("got lost at 1000.600000000 s"),
-                                 HasSubstr("--keep_lost"), HasSubstr("behind the trajectory")));
+                                 HasSubstr("--keep_lost"), HasSubstr("after the trajectory")));
   EXPECT_EQ(CountMessages(Path("lost.mcap")).at("/points_deskewed"), 6u);
   ASSERT_EQ(Convert({Path("lost"), Path("kept.mcap"), "--keep_lost"}).exit_code, 0);
   EXPECT_EQ(CountMessages(Path("kept.mcap")).at("/points_deskewed"), 12u);

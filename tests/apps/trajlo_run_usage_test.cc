@@ -142,7 +142,7 @@ TEST_F(TrajloRunTest, AStartBehindTheEndIsNamed) {
   room.Write(temp_ / "in");
   const Outcome outcome = Run({"--set=input.start_s=100"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("input.start_s lies behind their end"));
+  EXPECT_THAT(outcome.err, HasSubstr("input.start_s lies after their end"));
 }
 
 }  // namespace

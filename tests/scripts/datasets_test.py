@@ -85,8 +85,8 @@ class DatasetsTest(unittest.TestCase):
         self.write("dataset/poses/03.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n")
         code, text = self.call("kitti", self.downloads, "--into", self.data)
         self.assertEqual(code, 3, text)
-        self.assertIn("has 1 scans, but times.txt beside it has 2 stamps", text)
-        self.assertIn("03.txt has 1 poses, but", text)
+        self.assertIn("has 1 scan, but times.txt beside it has 2 stamps", text)
+        self.assertIn("03.txt has 1 pose, but", text)
         self.assertFalse((self.data / "kitti/sequences/03/velodyne").exists())
 
     def test_the_rig_of_hilti_is_written_from_its_calibration(self):

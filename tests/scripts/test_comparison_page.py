@@ -74,7 +74,7 @@ class ComparisonPageTest(FolderTest):
                      "farthest, rough, differs by 30 µm.",
                      "2 of 4 end with a trajectory that equals that of plain to within a "
                      "micrometre; the farthest, kernel_huber, differs by 5.0 cm.",
-                     "Position errors reach from 1.0 cm (plain) to 2.0 cm (kernel_huber)."):
+                     "Position errors range from 1.0 cm (plain) to 2.0 cm (kernel_huber)."):
             self.assertIn(said, text)
 
     def test_a_comparison_that_was_cut_short_says_so(self):

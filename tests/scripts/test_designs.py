@@ -25,6 +25,14 @@ class FactorTest(ReadingTest):
         self.assertEqual((factor.key, factor.scale, factor.label),
                          ("window.segments", "linear", "segments"))
 
+    def test_units_of_keys_are_written_as_people_do(self):
+        for key, label in (("a.voxel_size_m", "voxel size [m]"), ("a.rate_hz", "rate [Hz]"),
+                           ("a.translation_m2_s3", "translation [m²/s³]"),
+                           ("a.rotation_rad2_s3", "rotation [rad²/s³]"),
+                           ("a.speed_mps", "speed [m/s]"), ("a.rate_rad_s", "rate [rad/s]"),
+                           ("a.tilt_deg", "tilt [°]"), ("a.rings", "rings"), ("s", "s")):
+            self.assertEqual(self.read("[2, 3]", key).label, label)
+
     def test_values_over_a_wide_range_are_taken_as_ratios(self):
         self.assertEqual(self.read("[0.01, 1]").scale, "log")
         self.assertEqual(self.read("{values: [0.01, 1], scale: linear}").scale, "linear")

@@ -61,7 +61,7 @@ class DressRehearsal(FolderTest):
         self.assertIn("MISSING kitti/poses/00.txt", self.lay_out("kitti"))
         text = self.batch("kitti")
         self.assertIn(f", 10: no data; looked for {self.data}/kitti/sequences/NAME", text)
-        self.assertIn("10 of 11 sequences have no data", text)
+        self.assertIn("No data for 10 of 11 sequences", text)
         self.assertIn(f"{self.data}/kitti/poses/00.txt", self.page)
 
         row, = self.rows
@@ -85,7 +85,7 @@ class DressRehearsal(FolderTest):
         text = self.lay_out("ntu_viral")
         self.assertIn("ok      ntu_viral/spms_02/spms_02.bag", text)
         self.assertTrue((self.data / "ntu_viral" / "eee_01" / "truth.tum").is_file())
-        self.assertIn("16 of 18 sequences have no data", self.batch("ntu_viral"))
+        self.assertIn("No data for 16 of 18 sequences", self.batch("ntu_viral"))
 
         self.assertEqual(len(self.rows), 4)
         for row in self.rows:
@@ -115,7 +115,7 @@ class DressRehearsal(FolderTest):
         for name, kind in (("LAB_Survey_2", "imu"), ("Basement_4", "prism")):
             lookalikes.make_hilti2021(self.simulator, self.folder, self.downloads, name, kind)
         self.assertIn("hilti2021/calibration_02.yaml <-", self.lay_out("hilti2021"))
-        self.assertIn("4 of 6 sequences have no data", self.batch("hilti2021"))
+        self.assertIn("No data for 4 of 6 sequences", self.batch("hilti2021"))
         self.assertEqual(len(self.rows), 6)
         for row in self.rows:
             self.assertLess(float(row["ate_rmse_m"]), 0.03, row["folder"])

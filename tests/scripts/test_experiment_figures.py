@@ -198,7 +198,7 @@ class FiguresTest(PretendedTest):
         self.assertEqual(sentences[0], "The best of 7 settings is σ = 1 m, kernel = none.")
         self.assertIn("Its error is as high as that of “paper”", sentences[1])
         self.assertIn("other seeds might well turn that around", sentences[1])
-        self.assertIn("σ [m] matters most: 2 of 12 runs failed with σ = 10 m, and no setting with it "
+        self.assertIn("σ matters most: 2 of 12 runs failed with σ = 10 m, and no setting with it "
                       "ended well on all recordings.", sentences)
         self.assertIn("Between its other values the mean error differs by a factor of 2.0.",
                       sentences)

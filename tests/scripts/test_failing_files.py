@@ -2,6 +2,7 @@
 """What cannot be read or written ends with one sentence and its exit code, in every script that
 draws."""
 import errno
+import os
 import pathlib
 import subprocess
 import unittest
@@ -68,6 +69,14 @@ class FailingFilesTest(FolderTest):
         self.refuse(2, f"{trajectory} cannot be read: no such file or directory; check the path",
                     "check_covariance.py", f"{self.folder}={self.truth}")
         self.refuse(2, f"{missing / 'comparison.json'} is missing", "draw_comparison.py", missing)
+
+    def test_an_output_that_nobody_reads_ends_with_5_and_in_silence(self):
+        read, write = os.pipe()
+        os.close(read)
+        with os.fdopen(write) as nobody:
+            done = subprocess.run([SCRIPTS / "experiment", "weights", "--list"], stdout=nobody,
+                                  stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (5, ""))
 
     def test_wrong_usage_ends_with_1(self):
         for figure, named, said in (("s.jpg", "truth=t", "'s.jpg' does not end in .svg, .pdf or"),

@@ -54,7 +54,7 @@ class CampaignRunTest(BuiltTest):
         done = subprocess.run([self.programs.run, f"--input={bag}", f"--output={result}"],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertRegex(done.stderr, r"recording\.bag.* bytes are lost")
+        self.assertRegex(done.stderr, r"recording\.bag.* bytes lost")
         exit_code = json.loads((result / "run.json").read_text())["exit"]
         self.assertEqual(exit_code["code"], 3)
         self.assertIn("missing or broken", exit_code["message"])

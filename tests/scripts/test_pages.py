@@ -210,7 +210,7 @@ class RunPageTest(FolderTest):
         write_ply(result / "view.ply", {
             **dict(zip("xyz", points.T)), "intensity": np.zeros(500), "t_s": np.zeros(500)},
             f"comment begin_s {BEGIN_S:.9f}")
-        self.assertIn("3 poses lie more than 1000 km from the start", self.draw())
+        self.assertIn("Not drawn: 3 poses more than 1000 km from the start", self.draw())
 
     def test_what_made_a_run_fail_stands_on_top(self):
         lost = {"exit": {"code": 4, "reason": "lost", "message": "lost at 1700000003.5 s"},

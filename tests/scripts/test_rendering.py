@@ -37,8 +37,8 @@ class RenderingTest(FolderTest):
         return {name: int(value) for name, value in
                 re.findall(r'data-(images|broken|overflow|outside)="(-?\d+)"', done.stdout)}
 
-    def evaluated(self):
-        return write_evaluation(self.folder / "evaluation", {"ours": 0.01, "theirs": 0.2})
+    def evaluated(self, of=None):
+        return write_evaluation(self.folder / "evaluation", {"ours": 0.01, "theirs": 0.2}, of=of)
 
     def test_the_page_of_an_evaluation_shows_all_its_figures(self):
         subprocess.run([SCRIPTS / "draw_evaluation.py", self.evaluated()], check=True,
@@ -51,7 +51,7 @@ class RenderingTest(FolderTest):
         lines = [f"{0.1 * i} {i} 0 0 0 0 0 1" for i in range(30)]
         self.write("result/trajectory.tum", "\n".join(lines) + "\n")
         subprocess.run([SCRIPTS / "draw_run.py", self.folder / "result", "--evaluation",
-                        self.evaluated()], check=True, capture_output=True)
+                        self.evaluated(self.folder / "result")], check=True, capture_output=True)
         seen = self.probe(self.folder / "result" / "run.html", "--window-size=520,900")
         self.assertEqual((seen["images"], seen["broken"], seen["outside"]), (7, 0, 0))
         self.assertLessEqual(seen["overflow"], 0)

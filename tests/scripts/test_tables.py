@@ -115,6 +115,9 @@ class ComparedTableTest(unittest.TestCase):
         rows[1]["result"] = "x"
         table = tables.compared_table(suite, rows, published)
         self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "0.40 (1 of 2)")
+        # The others' means over the same sequence, which is what ours compares with.
+        self.assertEqual(table.notes[-1], "AVG without 01: FLOAM 0.71, KISS-ICP 0.52, CT-ICP 0.49, "
+                         "Traj-LO 0.50, ours * (L1) 0.40.")
         rows[0]["result"] = "x"
         table = tables.compared_table(suite, rows, published)
         self.assertEqual(table.lines[-1].cells[table.columns.index("AVG")].text, "-")
@@ -218,7 +221,6 @@ class SuiteTableTest(unittest.TestCase):
         self.assertEqual([line.cells[0].text for line in table.lines], ["0.12", "2.00"])
         self.assertFalse(any(line.cells[0].best for line in table.lines))
 
-
     def test_an_average_over_what_did_not_fail_says_so_and_is_not_the_best(self):
         suite = make_suite(configurations=("ours", "theirs"), groups=("a", "b"), average=True)
         rows = [row("ours", "a", 0.1), row("ours", "b", None, "x"),
@@ -226,6 +228,9 @@ class SuiteTableTest(unittest.TestCase):
         table = tables.suite_table(suite, rows)
         self.assertEqual([(line.cells[-1].text, line.cells[-1].best) for line in table.lines],
                          [("0.1000 (1 of 2)", False), ("0.3000", True)])
+        self.assertEqual(table.notes, ["average without b: ours (L1) 0.1000, theirs (L1) 0.2000."])
+        rows[1] = row("ours", "b", 0.3)
+        self.assertEqual(tables.suite_table(suite, rows).notes, [])
 
 
 class FormatsTest(unittest.TestCase):

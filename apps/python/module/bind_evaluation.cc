@@ -42,8 +42,8 @@ Poses ReadFile(const py::object& path, const std::string& format, const py::obje
     file.t_ns = ReadStampsFile(PathText(times));
     if (file.t_ns.size() != file.T_world_body.size()) {
       throw InputError(PathText(times),
-                       "has " + std::to_string(file.t_ns.size()) + " stamps, and " + poses.name +
-                           " " + std::to_string(file.T_world_body.size()) + " poses",
+                       "has " + CountOf(file.t_ns.size(), "stamp") + ", and " + poses.name + " " +
+                           CountOf(file.T_world_body.size(), "pose"),
                        "There must be one stamp for each line.");
     }
   }

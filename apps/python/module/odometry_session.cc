@@ -9,6 +9,7 @@
 #include "apps/python/module/arrays.h"
 #include "apps/python/module/window_table.h"
 #include "core/comparison/forms/ceres_form_solver.h"
+#include "core/io/format_text.h"
 #include "core/report/flag_warnings.h"
 #include "core/report/run_summary.h"
 
@@ -177,7 +178,7 @@ std::vector<std::string> OdometrySession::Remarks() const {
   std::vector<std::string> remarks = summary.times.remarks;
   const std::string odd_stamps = summary.OddStamps();
   if (!odd_stamps.empty()) {
-    remarks.push_back("of " + std::to_string(summary.times.scans) + " scans: " + odd_stamps);
+    remarks.push_back("of " + CountOf(summary.times.scans, "scan") + ": " + odd_stamps);
   }
   if (scans_ > 1 && first_stamp_ns_ < last_stamp_ns_ &&
       (last_stamp_ns_ - first_stamp_ns_) / (scans_ - 1) < kShortest_ns) {

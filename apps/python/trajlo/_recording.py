@@ -36,8 +36,8 @@ class Recording:
             warnings.warn(text, TrajloWarning, stacklevel=2)
         if report["is_partial"]:
             warnings.warn(
-                f"a part of the recording could not be read: {report['scans_skipped']} scans are "
-                f"missing, {report['scans_damaged']} are damaged"
+                "a part of the recording could not be read: scans missing: "
+                f"{report['scans_skipped']}, damaged: {report['scans_damaged']}"
                 + (", and a part of the file is missing or broken" if report["file_is_cut"] else "")
                 + "; report() says more", PartialInputWarning, stacklevel=2)
 

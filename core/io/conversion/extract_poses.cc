@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/messages/pose_decoder.h"
 #include "core/io/messages/report_merger.h"
 #include "core/io/recording/open_clouds.h"
@@ -21,8 +22,8 @@ std::size_t FindTopic(const RawMessageReader& reader, const std::string& name,
     const Topic& topic = reader.topics()[i];
     if (!IsPoseType(topic.type)) continue;
     if (topic.name == name) found = i;
-    *others += "\n    " + topic.name + " (" + topic.type + ", " + std::to_string(topic.messages) +
-               " messages)";
+    *others +=
+        "\n    " + topic.name + " (" + topic.type + ", " + CountOf(topic.messages, "message") + ")";
   }
   return found;
 }

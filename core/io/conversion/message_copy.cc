@@ -101,7 +101,7 @@ Route MakeRoute(const Topic& topic, Encoding to) {
   MessageDescription interface = topic.interface;
   interface.type = topic.type;
   if (topic.type.find('(') != std::string::npos) {
-    route.obstacle = "its messages are no ROS messages: " + topic.type;
+    route.obstacle = "its messages are not ROS messages: " + topic.type;
     return route;
   }
   // Interfaces that we know ourselves, where the bag does not tell.
@@ -180,7 +180,7 @@ MessageCopyResult CopyBags(const std::vector<std::filesystem::path>& bags,
     reader.reset();
   }
   if (result.messages == 0) {
-    throw InputError(bags.front(), "no message lies in what is to be copied",
+    throw InputError(bags.front(), "there is no message in the part to copy",
                      "Check --topics, --start_s and --duration_s with trajlo_info.");
   }
   writer.Close();

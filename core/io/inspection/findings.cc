@@ -40,8 +40,8 @@ void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings
                                    sweeps.span_s, sweeps.pause_s));
   }
   if (sweeps.points_without_time > 0) {
-    findings->push_back(
-        FormatText("%zu points have impossible times and are dropped", sweeps.points_without_time));
+    findings->push_back("dropped: " + CountOf(sweeps.points_without_time, "point") +
+                        " with impossible times");
   }
 }
 
@@ -50,21 +50,22 @@ void JudgeStamps(const StampSummary& stamps, std::vector<std::string>* findings)
     const auto longest = std::max_element(
         stamps.gaps.begin(), stamps.gaps.end(),
         [](const StampGap& a, const StampGap& b) { return a.length_ns < b.length_ns; });
-    findings->push_back(
-        FormatText("%zu gaps, about %zu scans are missing; the longest, %.4g s, is after ",
-                   stamps.gaps.size(), stamps.missing,
-                   1e-9 * static_cast<double>(longest->length_ns)) +
-        FormatSeconds(longest->after_ns) + " s");
+    findings->push_back(CountOf(stamps.gaps.size(), "gap") + ", about " +
+                        CountOf(stamps.missing, "scan is", "scans are") +
+                        FormatText(" missing; the longest, %.4g s, is after ",
+                                   1e-9 * static_cast<double>(longest->length_ns)) +
+                        FormatSeconds(longest->after_ns) + " s");
   }
   if (stamps.duplicates > 0) {
-    findings->push_back(
-        FormatText("%zu stamps repeat the one before, the first at ", stamps.duplicates) +
-        FormatSeconds(*stamps.first_duplicate_ns) + " s");
+    findings->push_back(CountOf(stamps.duplicates, "stamp repeats", "stamps repeat") +
+                        " the one before, the first at " +
+                        FormatSeconds(*stamps.first_duplicate_ns) + " s");
   }
   if (stamps.steps_back > 0) {
-    findings->push_back(FormatText("%zu stamps step back by up to %.4g s, the first at ",
-                                   stamps.steps_back, stamps.largest_step_back_s) +
-                        FormatSeconds(*stamps.first_step_back_ns) + " s");
+    findings->push_back(
+        CountOf(stamps.steps_back, "stamp steps", "stamps step") +
+        FormatText(" back by up to %.4g s, the first at ", stamps.largest_step_back_s) +
+        FormatSeconds(*stamps.first_step_back_ns) + " s");
   }
   if (stamps.jitter_s > 0.05 * stamps.period_s) {
     findings->push_back(FormatText("the stamps jitter by %.2g s (root mean square), %.2g s at most",
@@ -75,16 +76,16 @@ void JudgeStamps(const StampSummary& stamps, std::vector<std::string>* findings)
 void JudgePoints(const CloudInspection& cloud, std::vector<std::string>* findings) {
   const PointSummary& points = cloud.points;
   if (cloud.messages_unreadable > 0) {
-    findings->push_back(FormatText("%zu messages cannot be read: ", cloud.messages_unreadable) +
-                        cloud.first_unreadable);
+    findings->push_back(CountOf(cloud.messages_unreadable, "message") +
+                        " cannot be read: " + cloud.first_unreadable);
   }
   if (cloud.messages_damaged > 0) {
-    findings->push_back(
-        FormatText("%zu messages are damaged, the first: ", cloud.messages_damaged) +
-        cloud.first_damage);
+    findings->push_back(CountOf(cloud.messages_damaged, "message is", "messages are") +
+                        " damaged, the first: " + cloud.first_damage);
   }
   if (points.empty_messages > 0) {
-    findings->push_back(FormatText("%zu messages have no points", points.empty_messages));
+    findings->push_back(CountOf(points.empty_messages, "message has", "messages have") +
+                        " no points");
   }
   const std::size_t readable = cloud.messages_read - cloud.messages_unreadable;
   if (readable > 0 && points.Returns() < kFewReturns * readable) {

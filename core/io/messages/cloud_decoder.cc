@@ -25,7 +25,7 @@ bool DecodeCloud(const Topic& topic, RawMessage* raw, CloudMessage* cloud, std::
     return DecodePointCloud2(topic.encoding, &raw->bytes, cloud, remark);
   }
   if (IsLivox(topic.type)) return DecodeLivox(topic.encoding, &raw->bytes, cloud, remark);
-  *remark = "type " + topic.type + " is no point cloud";
+  *remark = "type " + topic.type + " is not a point cloud";
   return false;
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/io/format_text.h"
 #include "core/io/messages/cloud_decoder.h"
 
 namespace trajlo {
@@ -58,8 +59,8 @@ void RosCloudReader::ReportUndecodable(const std::string& reason) {
   }
   report_.warnings[state.undecodable_warning] =
       path_.string() + ": topic " + topics()[raw_.topic].name + ": " +
-      std::to_string(state.undecodable) + " messages are skipped, the first because it is " +
-      state.first_reason;
+      CountOf(state.undecodable, "message is", "messages are") +
+      " skipped, the first because it is " + state.first_reason;
 }
 
 void RosCloudReader::ReportOddity(const std::string& remark) {

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/packets/byte_order.h"
 #include "core/io/packets/ip_packet.h"
 #include "core/io/packets/velodyne_packet.h"
@@ -58,9 +59,9 @@ void CaptureFile::Open() {
   capture_.reset(
       pcap_fopen_offline_with_tstamp_precision(file.get(), PCAP_TSTAMP_PRECISION_NANO, message));
   if (capture_ == nullptr) {
-    throw InputError(path_, std::string("this is no packet capture that libpcap reads: ") + message,
+    throw InputError(path_, std::string("libpcap cannot read this as a packet capture: ") + message,
                      "Give a .pcap or .pcapng file (not compressed), or Velodyne payloads of 1206 "
-                     "bytes one behind the other.");
+                     "bytes one after the other.");
   }
   static_cast<void>(file.release());  // libpcap closes it now.
   link_type_ = pcap_datalink(capture_.get());
@@ -86,8 +87,8 @@ void CaptureFile::Rewind() {
 void CaptureFile::Lose(const std::string& damage) {
   counts_.bytes_lost = file_size_ - std::min(good_until_, file_size_);
   counts_.damage = damage + " at byte " + std::to_string(good_until_) + " of " +
-                   std::to_string(file_size_) + ": " + std::to_string(counts_.bytes_lost) +
-                   " bytes were lost";
+                   std::to_string(file_size_) + ": " + CountOf(counts_.bytes_lost, "byte") +
+                   " lost";
 }
 
 bool CaptureFile::Next(Datagram* datagram) {

@@ -30,7 +30,7 @@ struct CaptureCounts {
 };
 
 /// The UDP datagrams of a file, one at a time: a capture (pcap or pcapng, through libpcap) or bare
-/// Velodyne payloads of 1206 bytes one behind the other. Opening throws InputError if it is
+/// Velodyne payloads of 1206 bytes one after the other. Opening throws InputError if it is
 /// neither; afterwards a broken file only ends early, and `counts().damage` says so.
 class CaptureFile {
  public:

@@ -184,7 +184,7 @@ OusterMetadata ReadOusterMetadata(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) throw InputError(path, "opening failed", "Check that you may read the metadata.");
   const json root = json::parse(file, nullptr, false);
-  if (!root.is_object()) throw InputError(path, "this is no JSON object", "");
+  if (!root.is_object()) throw InputError(path, "this is not a JSON object", "");
   const Entries entries(path, root);
   OusterMetadata metadata;
   metadata.path = path;

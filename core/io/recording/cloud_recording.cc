@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/recording/probe_times.h"
 #include "core/io/scan_decoder.h"
 #include "core/scans/scan_times.h"
@@ -19,8 +20,8 @@ std::string CloudTopics(const CloudMessageReader& reader) {
   for (std::size_t i = 0; i < reader.topics().size(); ++i) {
     const Topic& topic = reader.topics()[i];
     if (!reader.IsCloud(i)) continue;
-    text += "\n    " + topic.name + " (" + topic.type + ", " + std::to_string(topic.messages) +
-            " messages)";
+    text +=
+        "\n    " + topic.name + " (" + topic.type + ", " + CountOf(topic.messages, "message") + ")";
   }
   return text.empty() ? " none" : text;
 }
@@ -112,7 +113,7 @@ void CloudRecording::Describe() {
     const Topic& topic = reader_->topics()[stream.topic];
     description_ += (description_.empty() ? "" : "\n") + path_.string() + ": lidar " +
                     std::to_string(stream.lidar_id) + " is " + topic.name + " (" + topic.type +
-                    "), " + std::to_string(topic.messages) + " messages" +
+                    "), " + CountOf(topic.messages, "message") +
                     (topic.remark.empty() ? "" : "; " + topic.remark) +
                     "\npoint times: " + stream.convention.evidence;
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 
 namespace trajlo::ros1 {
 namespace {
@@ -170,8 +171,8 @@ BagIndex BuildIndex(const RandomAccessFile& file, DamageLog* log) {
                      "this bag is damaged (" + why + ") and no message was found in it",
                      "Copy it again from where it was recorded.");
   }
-  log->AddSummary(why + "; a scan found " + std::to_string(messages) + " messages in " +
-                  std::to_string(index.chunks.size()) + " chunks");
+  log->AddSummary(why + "; a scan found " + CountOf(messages, "message") + " in " +
+                  CountOf(index.chunks.size(), "chunk"));
   return index;
 }
 

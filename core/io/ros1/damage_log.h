@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/io/format_text.h"
 #include "core/io/messages/raw_message.h"
 
 namespace trajlo::ros1 {
@@ -20,11 +21,11 @@ class DamageLog {
     // A disk that fails everywhere must not fill the screen.
     constexpr std::size_t kMaxWarnings = 20;
     if (report_.warnings.size() > kMaxWarnings) return;
-    report_.warnings.push_back(
-        report_.warnings.size() == kMaxWarnings
-            ? path_.string() + ": there is more damage, which is only counted"
-            : path_.string() + ": at byte " + std::to_string(offset) + ": " + what + "; " +
-                  std::to_string(bytes_lost) + " bytes are lost");
+    report_.warnings.push_back(report_.warnings.size() == kMaxWarnings
+                                   ? path_.string() +
+                                         ": there is more damage, which is only counted"
+                                   : path_.string() + ": at byte " + std::to_string(offset) + ": " +
+                                         what + "; " + CountOf(bytes_lost, "byte") + " lost");
   }
   /// A sentence on the file as a whole; it goes in front.
   void AddSummary(const std::string& sentence) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/ros2/topic_names.h"
 #include "core/io/ros2/unpack.h"
 
@@ -145,8 +146,8 @@ void Db3Reader::ReportLostRow(std::uint64_t bytes) {
     lost_rows_warning_ = report_.warnings.size();
     Warn("");
   }
-  report_.warnings[lost_rows_warning_] = shown_.string() + ": " + std::to_string(lost_rows_) +
-                                         " messages cannot be read, as the pages that hold them "
+  report_.warnings[lost_rows_warning_] = shown_.string() + ": " + CountOf(lost_rows_, "message") +
+                                         " cannot be read, as the pages that hold them "
                                          "are missing or broken";
 }
 

@@ -113,8 +113,8 @@ McapIndex ReadMcapIndex(const std::shared_ptr<const RandomAccessFile>& file,
                         const std::filesystem::path& path) {
   if (auto index = IndexFromSummary(*file)) return *std::move(index);
   McapIndex index;
-  MessageReport unused;  // Reading the messages will report the same.
-  McapStream stream(file, path, {}, &unused);
+  index.was_scanned = true;
+  McapStream stream(file, path, {}, &index.scan);
   McapRecord record;
   while (stream.Next(&record)) {
     index.topics.Add(record);

@@ -37,6 +37,9 @@ struct McapIndex {
   McapTopics topics;
   /// Where chunks begin in the file, sorted; empty if the file has no summary.
   std::vector<std::uint64_t> chunk_offsets;
+  /// Whether the whole file was read for this, and what is damaged in it then.
+  bool was_scanned = false;
+  MessageReport scan;
 };
 
 /// From the summary at the end of the file. Where there is none, or it is broken or does not count

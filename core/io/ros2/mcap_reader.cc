@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/io/errors.h"
+#include "core/io/format_text.h"
 #include "core/io/ros2/unpack.h"
 
 namespace trajlo {
@@ -15,7 +16,7 @@ std::shared_ptr<const RandomAccessFile> OpenMcap(const std::filesystem::path& pa
                                                  const std::filesystem::path& shown) {
   auto file = std::make_shared<const RandomAccessFile>(path);
   if (file->Read(0, kMcapMagic.size()).view() != kMcapMagic) {
-    throw InputError(shown, "this is no MCAP file: it does not begin with the format's mark",
+    throw InputError(shown, "this is not an MCAP file: it does not begin with the format's mark",
                      "Give a file that ends with .mcap, or a bag of another kind.");
   }
   return file;
@@ -31,14 +32,20 @@ bool HasEndMark(const RandomAccessFile& file) {
 McapReader::McapReader(const std::filesystem::path& path, const std::filesystem::path& shown)
     : shown_(shown.empty() ? path : shown) {
   const auto file = OpenMcap(path, shown_);
-  has_end_mark_ = HasEndMark(*file);
   index_ = ReadMcapIndex(file, shown_);
   if (topics().empty()) {
     throw InputError(shown_,
                      "no channel is in the " + std::to_string(file->size()) + " bytes of the file",
                      "The recording was empty, or was cut off before the first message.");
   }
-  stream_ = std::make_unique<McapStream>(file, shown_, index_.chunk_offsets, &report_);
+  report_ = std::move(index_.scan);
+  if (!HasEndMark(*file) && !report_.damaged) {
+    report_.warnings.push_back(shown_.string() +
+                               ": the end of the file is cut off; all messages are there, only its "
+                               "index is not");
+  }
+  stream_ = std::make_unique<McapStream>(file, shown_, index_.chunk_offsets,
+                                         index_.was_scanned ? &again_ : &report_);
   selected_.assign(topics().size(), true);
   met_.assign(topics().size(), 0);
 }
@@ -83,18 +90,14 @@ void McapReader::Finish() {
   }
   if (met < listed) {
     report_.damaged = true;
-    report_.warnings.push_back(shown_.string() + ": the file lists " + std::to_string(listed) +
-                               " messages of the topics that are read, " + std::to_string(met) +
-                               " were found");
-  }
-  if (!has_end_mark_ && !report_.damaged) {
-    report_.warnings.push_back(shown_.string() +
-                               ": the end of the file is cut off; all messages are there, only its "
-                               "index is not");
+    report_.warnings.push_back(shown_.string() + ": the file lists " + CountOf(listed, "message") +
+                               " of the topics that are read, " + std::to_string(met) +
+                               (met == 1 ? " was found" : " were found"));
   }
   if (not_unpacked_ > 0) {
-    report_.warnings.push_back(shown_.string() + ": " + std::to_string(not_unpacked_) +
-                               " messages are broken where they are compressed");
+    report_.warnings.push_back(shown_.string() + ": " +
+                               CountOf(not_unpacked_, "message is", "messages are") +
+                               " broken where compressed");
   }
 }
 

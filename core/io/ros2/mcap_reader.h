@@ -37,9 +37,10 @@ class McapReader final : public RawMessageReader {
   std::vector<bool> selected_;
   std::vector<std::uint64_t> met_;
   std::uint64_t not_unpacked_ = 0;
-  bool has_end_mark_ = false;
   bool finished_ = false;
   MessageReport report_;
+  /// Where a scan has told all damage, reading the messages finds it again.
+  MessageReport again_;
 };
 
 }  // namespace trajlo

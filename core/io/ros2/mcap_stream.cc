@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/io/format_text.h"
 #include "core/io/messages/wire_reader.h"
 #include "core/io/ros2/unpack.h"
 
@@ -157,7 +158,7 @@ void McapStream::Lose(std::uint64_t offset, std::uint64_t bytes, const std::stri
   report_->bytes_lost += bytes;
   if (report_->warnings.size() >= kMostWarnings) return;
   report_->warnings.push_back(path_.string() + ": byte " + std::to_string(offset) + ": " + what +
-                              " (" + std::to_string(bytes) + " bytes)");
+                              " (" + CountOf(bytes, "byte") + ")");
 }
 
 }  // namespace trajlo

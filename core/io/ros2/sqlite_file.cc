@@ -41,7 +41,8 @@ SqliteFile::SqliteFile(const std::filesystem::path& path, const std::filesystem:
   const RandomAccessFile file(path);
   const FileBytes header = file.Read(0, kHeaderBytes);
   if (header.view().substr(0, kMark.size()) != kMark || header.size() < kHeaderBytes) {
-    throw InputError(shown, "this is no SQLite database: it does not begin with the format's mark",
+    throw InputError(shown,
+                     "this is not an SQLite database: it does not begin with the format's mark",
                      "Give a file that ends with .db3, or a bag of another kind.");
   }
   size_ = file.size();

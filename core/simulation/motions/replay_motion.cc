@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/format_text.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_reader.h"
 #include "core/simulation/motions/motion_makers.h"
@@ -88,8 +89,11 @@ CubicSpline ReadSpline(const std::string& path) {
 PoseFunction MakeReplay(const MotionConfig& config, const SceneRoutes& routes, double duration_s) {
   const CubicSpline spline = ReadSpline(config.replay_file);
   if (spline.end() < duration_s - 1e-6) {
-    throw std::runtime_error(config.replay_file + ": it holds " + std::to_string(spline.end()) +
-                             " s, the recording would last " + std::to_string(duration_s) + " s");
+    const double longest_s = std::floor(1000.0 * spline.end()) / 1000.0;
+    throw std::runtime_error(config.replay_file +
+                             FormatText(": holds %.3f s, and the recording would last %.3f s; give "
+                                        "a duration_s of at most %.3f",
+                                        longest_s, duration_s, longest_s));
   }
   const auto T_file_body = [spline](double t) {
     const Vector7d x = spline.Value(t);

@@ -41,7 +41,7 @@ TEST(SolverVariants, MistakesNameFileAndLine) {
   const auto error = [](const std::string& yaml) { return ConfigErrorOf([&] { Load(yaml); }); };
   EXPECT_THAT(error("nothing: 1\n"), HasSubstr("expected 'variants:'"));
   EXPECT_THAT(error("variants:\n  - {set: \"threads=1\"}\n"), HasSubstr("variants.yaml:2"));
-  EXPECT_THAT(error("variants:\n  - {name: a}\n  - {name: a}\n"), HasSubstr("is there twice"));
+  EXPECT_THAT(error("variants:\n  - {name: a}\n  - {name: a}\n"), HasSubstr("appears twice"));
   EXPECT_THAT(error("variants:\n  - {name: ../a}\n"), HasSubstr("that of a folder"));
   EXPECT_THAT(error("variants:\n  - {name: \"a,b\"}\n"), HasSubstr("that of a folder"));
   EXPECT_THAT(error("variants:\n  - {name: a, set: \"solver.knd=ceres\"}\n"),

@@ -73,9 +73,9 @@ TEST(Config, RepeatedKeyIsAnError) {
 
 TEST(Config, RepeatedSectionAndSecondDocumentAreErrors) {
   EXPECT_THAT(LoadingError("window: {segments: 3}\nmap:\nwindow: {deskewing: predicted}"),
-              AllOf(StartsWith("my.yaml:3:1"), HasSubstr("section 'window' is there twice")));
+              AllOf(StartsWith("my.yaml:3:1"), HasSubstr("section 'window' appears twice")));
   EXPECT_THAT(LoadingError("expert: {map: {plane: {neighbors: 5}, plane: {}}}"),
-              HasSubstr("section 'expert.map.plane' is there twice"));
+              HasSubstr("section 'expert.map.plane' appears twice"));
   EXPECT_THAT(LoadingError("---\nwindow: {segments: 3}\n---\nwindow: {segments: 4}\n"),
               AllOf(StartsWith("my.yaml:3:"), HasSubstr("second YAML document")));
   EXPECT_EQ(Loaded("---\nwindow: {segments: 3}\n...\n").odometry.window.segments, 3);

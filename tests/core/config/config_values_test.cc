@@ -100,7 +100,7 @@ TEST(ConfigExtrinsics, MistakesAreExplained) {
   EXPECT_THAT(problem("[{rotation: [1, 0, 0]}]"), HasSubstr("found 3"));
   EXPECT_THAT(problem("[{matrix: [1, 2, 3]}]"), HasSubstr("3 or 4 rows"));
   EXPECT_THAT(problem("[{matrix: [2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]}]"),
-              HasSubstr("no rotation"));
+              HasSubstr("not a rotation"));
   EXPECT_THAT(problem("[{matrix: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0]}]"),
               HasSubstr("it mirrors, its determinant is -1"));
   EXPECT_THAT(problem("[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1]"),

@@ -93,6 +93,9 @@ TEST_F(Result, AnInterruptedRunDoesNotKnowHowManyScansThereAre) {
 TEST_F(Result, PosesAtOtherTimesThanTheWindowsAreNoticed) {
   WriteFile(folder_ / "trajectory.tum", "1.05 0 0 0 0 0 0 1\n1.15 1 0 0 0 0 0 1\n");
   EXPECT_FALSE(ReadRunResult(folder_.path()).has_control_poses);
+  // Too short for a window, as the run may have been: nothing says so.
+  WriteFile(folder_ / "windows.csv", "index,end_s,flags\n");
+  EXPECT_TRUE(ReadRunResult(folder_.path()).has_control_poses);
 }
 
 TEST_F(Result, CovariancesAreSymmetric) {

@@ -13,5 +13,13 @@ TEST(FormatText, IsNeverCut) {
   EXPECT_EQ(FormatText("%s.csv", name.c_str()), name + ".csv");
 }
 
+TEST(CountOf, OneIsSingular) {
+  EXPECT_EQ(CountOf(0, "scan"), "0 scans");
+  EXPECT_EQ(CountOf(1, "scan"), "1 scan");
+  EXPECT_EQ(CountOf(12U, "scan"), "12 scans");
+  EXPECT_EQ(CountOf(1U, "scan is", "scans are"), "1 scan is");
+  EXPECT_EQ(CountOf(2, "scan is", "scans are"), "2 scans are");
+}
+
 }  // namespace
 }  // namespace trajlo

@@ -192,7 +192,7 @@ TEST(ScanFolder, WhenNoFileCanBeReadTheFirstReasonIsTold) {
     ScanFolder recording(folder.path());
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("none of the 2 scans can be read"));
+    EXPECT_THAT(error.what(), HasSubstr("no scan of 2 can be read"));
     EXPECT_THAT(error.what(), HasSubstr("no DATA line"));
   }
 }

@@ -92,7 +92,7 @@ TEST(StampsFile, ALineThatIsNoStampIsNamed) {
     ReadStampsFile(folder.Write("timestamps.txt", "1.0\n\nyesterday\n"));
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("line 3 is no stamp: 'yesterday'"));
+    EXPECT_THAT(error.what(), HasSubstr("line 3 is not a stamp: 'yesterday'"));
   }
 }
 
@@ -137,7 +137,7 @@ TEST_F(StampSearch, FewerStampsThanScansIsAnErrorWithBothNumbers) {
     Find();
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("1 stamps for 2 scans"));
+    EXPECT_THAT(error.what(), HasSubstr("1 stamp for 2 scans"));
   }
 }
 
@@ -146,7 +146,7 @@ TEST_F(StampSearch, MoreStampsThanScansIsAWarning) {
   folder_.Write("times.txt", "5.0\n6.0\n");
   const ScanStamps stamps = Find();
   EXPECT_THAT(stamps.t_ns, ElementsAre(5 * kSecond));
-  EXPECT_THAT(stamps.warnings, ElementsAre(HasSubstr("2 stamps for 1 scans")));
+  EXPECT_THAT(stamps.warnings, ElementsAre(HasSubstr("2 stamps for 1 scan;")));
 }
 
 TEST_F(StampSearch, WhenAScanIsMissingTheIndexInTheNamesPicksTheLine) {
@@ -259,7 +259,7 @@ TEST(ScanListing, AKnownSubfolderGoesBeforeAStrayMapBesideIt) {
   folder.Write("scans/1.pcd", "");
   const ScanListing listing = ListScans(folder.path());
   EXPECT_EQ(listing.folder.filename(), "scans");
-  EXPECT_THAT(listing.notes, ElementsAre(HasSubstr("1 point files")));
+  EXPECT_THAT(listing.notes, ElementsAre(HasSubstr("1 point file in")));
 }
 
 TEST(ScanListing, TheMostFrequentKindOfFileWins) {
@@ -270,7 +270,7 @@ TEST(ScanListing, TheMostFrequentKindOfFileWins) {
   const ScanListing listing = ListScans(folder.path());
   EXPECT_EQ(listing.extension, ".pcd");
   EXPECT_EQ(listing.files.size(), 2U);
-  EXPECT_THAT(listing.notes, ElementsAre(HasSubstr("do not end in .pcd")));
+  EXPECT_THAT(listing.notes, ElementsAre(HasSubstr("does not end in .pcd")));
 }
 
 TEST(ScanListing, MissingEmptyAndAmbiguousFoldersAreExplained) {
@@ -286,7 +286,7 @@ TEST(ScanListing, MissingEmptyAndAmbiguousFoldersAreExplained) {
   EXPECT_THAT(message(folder.path() / "nowhere"), HasSubstr("there is no such file or folder"));
   EXPECT_THAT(message(folder.path()), HasSubstr("0 subfolders and 0 files"));
   EXPECT_THAT(message(folder.Write("notes.txt", "")), HasSubstr("not a folder"));
-  EXPECT_THAT(message(folder.path()), HasSubstr("1 files of other kinds"));
+  EXPECT_THAT(message(folder.path()), HasSubstr("1 file of another kind"));
   folder.Write("left/1.bin", "");
   folder.Write("right/1.bin", "");
   EXPECT_THAT(message(folder.path()), HasSubstr("several subfolders hold scans: left right"));

@@ -20,9 +20,18 @@ TEST(ProgressLine, ShowsScanPercentSpeedAndInliers) {
             "[=========>         ]  50 %  scan 75/150  3.0 x real time  inliers 82 %");
 }
 
+constexpr Progress kOneOfSeveral = {75, 150, 7.5, 2.5, 0.82, "gauss_newton"};
+
+TEST(ProgressLine, NamesTheRunIfThereAreSeveral) {
+  EXPECT_EQ(ProgressLine(kOneOfSeveral, 72),
+            "gauss_newton  [==>  ]  50 %  scan 75/150  3.0 x real time  inliers 82 %");
+}
+
 TEST(ProgressLine, FitsAnyTerminal) {
   for (int columns = 0; columns < 200; ++columns) {
-    EXPECT_LT(ProgressLine(kHalf, columns).size(), static_cast<std::size_t>(columns) + 1);
+    for (const Progress& progress : {kHalf, kOneOfSeveral}) {
+      EXPECT_LT(ProgressLine(progress, columns).size(), static_cast<std::size_t>(columns) + 1);
+    }
   }
   EXPECT_EQ(ProgressLine(kHalf, 56).find('['), std::string::npos);
 }

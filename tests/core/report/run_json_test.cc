@@ -187,7 +187,7 @@ TEST(SummaryTable, NamesWhatMatters) {
   EXPECT_THAT(table, HasSubstr("11 of 12 scans"));
   EXPECT_THAT(table, HasSubstr("10 not finite, 20 too near of 1000 points"));
   EXPECT_THAT(table, HasSubstr("80 % inliers"));
-  EXPECT_THAT(table, HasSubstr("gap 1 (1.0 s)"));
+  EXPECT_THAT(table, HasSubstr("gap 1 (1.00 s)"));
   EXPECT_THAT(table, HasSubstr("4.0 x real time"));
   EXPECT_THAT(table, HasSubstr("at 1700000001.000000001 s"));
   EXPECT_THAT(table, HasSubstr("lost (exit code 4), in out"));
@@ -195,6 +195,7 @@ TEST(SummaryTable, NamesWhatMatters) {
 
 TEST(SummaryTable, AnEmptyRunHasNoNan) {
   EXPECT_EQ(SummaryTable({}).find("nan"), std::string::npos);
+  EXPECT_THAT(SummaryTable({}), HasSubstr("windows     none"));
 }
 
 TEST(Versions, AreKnown) {

@@ -283,6 +283,18 @@ TEST_F(Replay, SaysWhichLineIsWrong) {
   }
 }
 
+TEST_F(Replay, SaysWhatDurationTheFileAllows) {
+  Write("0 0 0 0 0 0 0 1\n1.2345678 0 0 0 0 0 0 1\n");
+  EXPECT_NO_THROW(Make(false, 1.234));
+  try {
+    Make(false, 15.0);
+    ADD_FAILURE();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("duration_s of at most 1.234"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(Replay, TimesSince1970AreAsExactAsOthers) {
   std::string early, late;
   for (int i = 0; i < 30; ++i) {

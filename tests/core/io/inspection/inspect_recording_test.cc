@@ -98,7 +98,7 @@ TEST(InspectClouds, DamageIsToldAndWhatCanBeReadIsShown) {
   EXPECT_THAT(found.warnings, Contains("the file is cut"));
   EXPECT_EQ(found.clouds[0].messages_unreadable, 1u);
   EXPECT_EQ(found.clouds[0].stamps.count, 7u);
-  EXPECT_THAT(FindingsOf(found.clouds[0]), Contains(HasSubstr("1 messages cannot be read")));
+  EXPECT_THAT(FindingsOf(found.clouds[0]), Contains(HasSubstr("1 message cannot be read")));
 }
 
 TEST(InspectClouds, QuickReadsTheFirstMessagesOnly) {

@@ -192,7 +192,7 @@ TEST(FindingsOf, NamesWhatGoesWrong) {
   const std::vector<std::string> findings = FindingsOf(cloud);
   EXPECT_THAT(findings, Contains(HasSubstr("will refuse: ambiguous point times")));
   EXPECT_THAT(findings, Contains(HasSubstr("sweeps overlap by 0.05 s")));
-  EXPECT_THAT(findings, Contains(HasSubstr("3 points have impossible times")));
+  EXPECT_THAT(findings, Contains(HasSubstr("dropped: 3 points with impossible times")));
   EXPECT_THAT(findings, Contains(HasSubstr("2 gaps, about 5 scans are missing; the longest, 0.4 "
                                            "s, is after 1.000000000 s")));
   EXPECT_THAT(findings, Contains(HasSubstr("2 stamps repeat the one before, the first at 3.5")));

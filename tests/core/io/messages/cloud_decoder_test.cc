@@ -152,7 +152,7 @@ TEST(CloudDecoder, PointsOfNoBytesAndMessagesWithoutPointsAreRejected) {
   EXPECT_THAT(remark, HasSubstr("30 bytes that ends before its points begin"));
   EXPECT_FALSE(Decode("livox_ros_driver/CustomMsg", "short", &cloud, &remark));
   EXPECT_FALSE(Decode("sensor_msgs/Imu", cloud2.Bytes(), &cloud, &remark));
-  EXPECT_THAT(remark, HasSubstr("no point cloud"));
+  EXPECT_THAT(remark, HasSubstr("not a point cloud"));
 }
 
 std::int64_t LivoxStamp(std::int64_t header_ns, std::int64_t timebase_ns, std::string* remark) {

@@ -114,7 +114,7 @@ TEST(OusterSweeps, TellOfLostRepeatedAndLatePackets) {
   EXPECT_EQ(all.sweeps[2].table.count, 32 * PointsOfPacket());
   EXPECT_THAT(all.Warnings(), HasSubstr("ouster:7502: 32 columns of whole sweeps never came"));
   EXPECT_THAT(all.Warnings(), HasSubstr("ouster:7502: 16 columns came twice"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("ouster:7502: 1 packets came too late"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("ouster:7502: 1 packet came too late"));
   EXPECT_FALSE(all.report.damaged);
 }
 
@@ -149,8 +149,8 @@ TEST(OusterSweeps, LeaveOutColumnsThatAreBrokenAndPacketsOfAnotherSize) {
   EXPECT_LT(all.sweeps[1].table.count, PointsOfPacket());
   EXPECT_TRUE(all.report.damaged);
   EXPECT_THAT(all.Warnings(), HasSubstr("2 columns have an impossible number or time"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("1 datagrams have another size"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("udp:9999: 1 datagrams are no lidar packets"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("1 datagram has another size"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("udp:9999: 1 datagram is not a LiDAR packet"));
 }
 
 TEST(OusterSweeps, OfDualReturnsKeepBothOrTheFirst) {
@@ -222,7 +222,7 @@ TEST(OusterMetadata, ThatCannotBeUsedIsAnErrorThatNamesTheEntry) {
               HasSubstr("_origin_mm is \"far\""));
   EXPECT_THAT(refused("/data_format/columns_per_packet", 8), HasSubstr("not of the size that"));
   folder.Write("run.json", "{ broken");
-  EXPECT_THAT(WhatReadingThrows(capture), HasSubstr("run.json: this is no JSON object"));
+  EXPECT_THAT(WhatReadingThrows(capture), HasSubstr("run.json: this is not a JSON object"));
 }
 
 TEST(OusterMetadata, OfEarlyFirmwareHasNoFormatAndMeansTheLegacyProfile) {

@@ -100,7 +100,7 @@ TEST(PacketDamage, MissingFragmentsAreCounted) {
   }
   const Sweeps all = ReadSweeps(folder.Write("lost.pcap", bytes));
   EXPECT_TRUE(all.report.damaged);
-  EXPECT_THAT(all.Warnings(), HasSubstr("1 packets lack IP fragments"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("1 packet lacks IP fragments"));
 }
 
 TEST(PacketDamage, PacketsThatContradictThemselvesAreLeftOut) {
@@ -128,9 +128,10 @@ TEST(PacketDamage, WhatIsNoCaptureIsRefusedWithWhatWasFound) {
   };
   EXPECT_THAT(refused(folder.path() / "none.pcap"), HasSubstr("none.pcap"));
   EXPECT_THAT(refused(folder.path()), HasSubstr("not a regular file"));
-  EXPECT_THAT(refused(folder.Write("empty.pcap", "")), HasSubstr("no packet capture"));
+  EXPECT_THAT(refused(folder.Write("empty.pcap", "")),
+              HasSubstr("libpcap cannot read this as a packet capture"));
   EXPECT_THAT(refused(folder.Write("text.pcap", std::string(500, 'a'))),
-              HasSubstr("no packet capture"));
+              HasSubstr("libpcap cannot read this as a packet capture"));
   EXPECT_THAT(refused(folder.Write("bare.pcap", PcapText().bytes())), HasSubstr("among 0 frames"));
   const std::string foreign = PcapText().AddUdp(0, 53, "a question").bytes();
   EXPECT_THAT(refused(folder.Write("dns.pcap", foreign)), HasSubstr("udp:53: 1 datagrams"));

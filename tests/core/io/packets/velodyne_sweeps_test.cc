@@ -202,8 +202,8 @@ TEST(VelodyneSweeps, CountLostRepeatedAndLatePackets) {
   const Sweeps all = ReadSweeps(folder.Write("lossy.bin", bytes));
   EXPECT_EQ(all.points(), 8U * 384U);
   EXPECT_THAT(all.Warnings(), HasSubstr("velodyne: 3 packets never came"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("velodyne: 1 packets came twice"));
-  EXPECT_THAT(all.Warnings(), HasSubstr("velodyne: 1 packets came too late"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("velodyne: 1 packet came twice"));
+  EXPECT_THAT(all.Warnings(), HasSubstr("velodyne: 1 packet came too late"));
   EXPECT_FALSE(all.report.damaged) << "the network lost them, not the file";
 }
 

@@ -58,7 +58,7 @@ TEST(CloudRecording, SeveralCloudsWithoutAChoiceAreAnErrorThatNamesThem) {
   auto messages = RegularMessages(6, 100 * kMs);
   messages.push_back({1, kStart, kStart});
   const FakeClouds fake({"/cloud_a", "/cloud_b"}, messages);
-  EXPECT_THAT(ErrorOf(fake), HasSubstr("/cloud_b (sensor_msgs/PointCloud2, 1 messages)"));
+  EXPECT_THAT(ErrorOf(fake), HasSubstr("/cloud_b (sensor_msgs/PointCloud2, 1 message)"));
   RecordingOptions options;
   options.topics = {"/cloud_c"};
   EXPECT_THAT(ErrorOf(fake, options), HasSubstr("no topic '/cloud_c'"));

@@ -235,7 +235,7 @@ TEST(PlainBag, SaysWhereItIsCutAndHowMuchIsLost) {
               ElementsAre(HasSubstr("the file ends at byte " + std::to_string(last.second - 1)),
                           HasSubstr("at byte " + std::to_string(last.first) +
                                     ": this chunk is not complete; " + std::to_string(lost) +
-                                    " bytes are lost")));
+                                    " bytes lost")));
 }
 
 TEST(PlainBag, WhoseRecorderCrashedInAChunkGivesTheMessagesInIt) {

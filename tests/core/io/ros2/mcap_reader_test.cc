@@ -129,6 +129,22 @@ TEST(McapReader, AFileThatIsCutBehindItsMessagesLosesNothingAndSaysSo) {
   }
 }
 
+/// A look at the first messages says it, too.
+TEST(McapReader, AFileThatIsCutSaysSoBeforeItsMessagesAreReadAndNotTwice) {
+  const TempFolder folder;
+  const std::string whole = testing::ReadFile(Fixture("zstd.mcap"));
+  const std::size_t data_end = FindDataEnd(whole);
+  for (const std::size_t size : {data_end - 100, data_end, whole.size() - 1}) {
+    McapReader reader(folder.Write("cut.mcap", whole.substr(0, size)));
+    const MessageReport before = reader.report();
+    EXPECT_EQ(before.damaged, size <= data_end) << size;
+    EXPECT_THAT(before.warnings, ::testing::SizeIs(1)) << size;
+    ReadAll(&reader);
+    EXPECT_EQ(reader.report().warnings, before.warnings) << size;
+    EXPECT_EQ(reader.report().bytes_lost, before.bytes_lost) << size;
+  }
+}
+
 TEST(McapReader, AFileThatIsCompleteButHasNoSummaryIsNotDamaged) {
   const TempFolder folder;
   const std::string whole = testing::ReadFile(Fixture("none.mcap"));
@@ -193,7 +209,7 @@ TEST(McapReader, OtherFilesAreErrorsThatSayWhatIsMissing) {
     return "no error";
   };
   EXPECT_THAT(message(""), HasSubstr("does not begin with the format's mark"));
-  EXPECT_THAT(message("#ROSBAG V2.0"), HasSubstr("this is no MCAP file"));
+  EXPECT_THAT(message("#ROSBAG V2.0"), HasSubstr("this is not an MCAP file"));
   EXPECT_THAT(message(testing::ReadFile(Fixture("none.mcap")).substr(0, 60)),
               HasSubstr("no channel is in the 60 bytes"));
   EXPECT_THROW(McapReader(folder.path() / "absent.mcap"), InputError);

@@ -226,8 +226,8 @@ TEST(Db3Reader, OtherDatabasesAndFilesAreErrorsThatSayWhatIsMissing) {
     }
     return "no error";
   };
-  EXPECT_THAT(message(""), HasSubstr("this is no SQLite database"));
-  EXPECT_THAT(message("#ROSBAG V2.0"), HasSubstr("this is no SQLite database"));
+  EXPECT_THAT(message(""), HasSubstr("this is not an SQLite database"));
+  EXPECT_THAT(message("#ROSBAG V2.0"), HasSubstr("this is not an SQLite database"));
   EXPECT_THAT(message(testing::ReadFile(Fixture("plain_db3/plain_db3.db3")).substr(0, 600)),
               HasSubstr("SQLite cannot read it"));
   sqlite3* other = nullptr;
