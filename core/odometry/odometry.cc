@@ -93,6 +93,7 @@ void Odometry::Step(SegmentCloud cloud) {
   const int to_keep = SegmentsToKeep();
   while (window_.size() > to_keep) Leave(&statistics);
   Report(&statistics);
+  LookAround();
 }
 
 /// Until the step is small: which planes the points belong to, and the poses that bring them there.

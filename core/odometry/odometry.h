@@ -94,6 +94,8 @@ class Odometry {
   void NoteSupport();
   void AssociateAndSolve(WindowStatistics* statistics);
   void LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics);
+  void LookAround();
+  void MoveWindow(const SweepMotion& found);
   void BelieveOrRevert(const std::vector<SE3>& predicted, const WindowStatistics& statistics);
   void LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics);
   void Watch(WindowStatistics* statistics);
@@ -125,6 +127,7 @@ class Odometry {
   std::optional<std::int64_t> lost_at_ns_;
   std::optional<Beginning> beginning_ = Beginning{};  ///< Until a map begins.
   std::optional<ControlPose> first_pose_;             ///< Until the next one is final.
+  std::int64_t looked_until_ns_ = 0;  ///< The end of what was last looked for by LookAround().
   std::int64_t windows_ = 0;
 };
 

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: MIT
 // When the points do not hold the body any more, and how it finds its place again.
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "core/odometry/health/agreement.h"
 #include "core/odometry/health/belief.h"
 #include "core/odometry/odometry.h"
+#include "core/odometry/segments/join_segments.h"
+#include "core/odometry/start/initial_motion.h"
+#include "core/odometry/start/relocalization.h"
 #include "core/odometry/weights/innovation.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/push_segment.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -15,6 +24,10 @@ namespace {
 /// How well a place is known that was found in the map.
 constexpr double kFoundSigma_m = 0.2;
 constexpr double kFoundSigma_rad = 0.05;
+/// From here a window finds its place by itself.
+constexpr StepSize kSamePlace = {0.5, 0.12};
+/// What a look around may cost.
+constexpr double kFarthest_m = 10.0;
 
 double NewestAgreement(const Window& window) {
   return AgreementOf(window, window.segments.back()).worst;
@@ -50,6 +63,57 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
     statistics->milliseconds_associate = again.milliseconds_associate;
     statistics->milliseconds_solve = again.milliseconds_solve;
   }
+}
+
+/// In doubt, what the window has seen is looked for in the map, around where the body seems to be.
+/// Where it is clearly found, the body is. While the doubt lasts, the map does not grow: a body at
+/// the right place would soon be out of it.
+void Odometry::LookAround() {
+  const std::optional<StepSize> reach = doubt_.Reach(window_);
+  const bool has_new_points = window_.begin_ns >= looked_until_ns_;
+  if (!reach || !has_new_points || window_.size() < 2) return;
+  std::vector<SegmentCloud> clouds;
+  for (const Segment& segment : window_.segments) clouds.push_back(segment.cloud);
+  const SegmentCloud sweep = JoinSegments(clouds);
+  if (sweep.map_points.empty() || clouds.back().IsInstant()) return;
+  looked_until_ns_ = window_.EndNs();
+
+  SearchRegion region;
+  region.center_world = window_.T_world_begin.t;
+  region.radius_m = std::min(kSamePlace.translation_m + reach->translation_m, kFarthest_m);
+  region.q_world_body = {window_.T_world_begin.q};
+  region.vertical_world = attitude_.VerticalInWorld();
+  region.max_turn_rad = std::min(kSamePlace.rotation_rad + reach->rotation_rad, M_PI);
+  // A window that contradicts the map does not tell how the body moves, either.
+  const Vector6d tau =
+      doubt_.IsContradicted(window_)
+          ? sweep.Duration_s() * MotionOfFirstInterval(sweep, options_.initialization, options_.map,
+                                                       options_.registration, &threads_)
+                                     .velocity
+          : Minus(window_.EndPose(), window_.T_world_begin);
+  const auto found = Relocalize(sweep, tau, map_, region, options_.registration, &threads_);
+  if (!found) return;
+  doubt_.Dispel();
+  if (MeasureStep(window_.T_world_begin, found->T_world_begin).IsWithin(kSamePlace)) return;
+  MoveWindow(*found);
+}
+
+/// To where its points were found. The next solve begins there.
+void Odometry::MoveWindow(const SweepMotion& found) {
+  const SE3 T_world_end = Plus(found.T_world_begin, found.tau);
+  const double duration_s = Seconds(window_.EndNs() - window_.begin_ns);
+  window_.T_world_begin = found.T_world_begin;
+  window_.begin_flags |= kFlagJump;
+  window_.prior = MakeAnchor(found.T_world_begin, kFoundSigma_m, kFoundSigma_rad);
+  window_.segments.front().motion = std::monostate();
+  for (Segment& segment : window_.segments) {
+    const double alpha = Seconds(segment.cloud.end_ns - window_.begin_ns) / duration_s;
+    segment.T_world_end = Interpolate(found.T_world_begin, T_world_end, alpha);
+    segment.association = {};
+    segment.linearization.reset();
+  }
+  support_.Supported(window_.EndNs());
+  loss_watch_ = LossWatch();
 }
 
 /// Whether the newest points do not hold the window, and did not for so long that its prediction is

@@ -49,10 +49,14 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
   // At first, points that agree and leave a direction open are no reason for doubt.
   const bool began = held_until_ns_ || (unheld & ~kFlagDegenerate) != 0;
   if (unheld == 0 || !began) held_until_ns_ = window.EndNs();
-  if (unheld != 0) {
+  is_held_ = unheld == 0;
+  if (!is_held_) {
     if (flags_ != 0 || has_jumped || MayHaveMoved(window.EndNs(), density)) {
+      if (flags_ == 0) density_ = density;
       flags_ = unheld;
       causes_ |= unheld;
+      if (held_until_ns_)
+        unseen_s_ = std::max(unseen_s_, Seconds(window.EndNs() - *held_until_ns_));
     }
   } else if (flags_ == 0) {
     const double usual = usual_agreement_.value_or(kAgreementAtFirst);
@@ -62,9 +66,20 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
                                                        return Agrees(window, segment, kToTrust,
                                                                      kAsUsual);
                                                      })) {
-    flags_ = 0;
-    causes_ = 0;
+    Dispel();
   }
+}
+
+std::optional<StepSize> DoubtWatch::Reach(const Window& window) const {
+  if (flags_ == 0 || !(is_held_ || IsContradicted(window))) return std::nullopt;
+  return StepSize{3.0 * UnseenSigma(density_[0], unseen_s_),
+                  3.0 * UnseenSigma(density_[3], unseen_s_)};
+}
+
+void DoubtWatch::Dispel() {
+  flags_ = 0;
+  causes_ = 0;
+  unseen_s_ = 0.0;
 }
 
 bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const {

@@ -24,6 +24,12 @@ class DoubtWatch {
 
   /// Why the newest pose is in doubt: flags of a window, or 0.
   unsigned flags() const { return flags_; }
+  /// How far the body may be from where it seems to be, while that is in doubt and `window`, the
+  /// newest one, has something to look for: its points hold it somewhere, or contradict the map.
+  /// Three standard deviations of the motion that was not seen.
+  std::optional<StepSize> Reach(const Window& window) const;
+  /// The body was found: no doubt is left.
+  void Dispel();
   /// Whether the newest points lie on the map much worse than usual.
   bool IsContradicted(const Window& window) const;
   /// Whether the points of a segment may extend the map.
@@ -35,7 +41,10 @@ class DoubtWatch {
   bool Agrees(const Window& window, const Segment& segment, double on_map, double of_usual) const;
 
   unsigned flags_ = 0;
-  unsigned causes_ = 0;  ///< All flags since the doubt began.
+  unsigned causes_ = 0;                  ///< All flags since the doubt began.
+  bool is_held_ = false;                 ///< Whether the points held the newest window.
+  Vector6d density_ = Vector6d::Zero();  ///< When the doubt began: wrong windows raise it.
+  double unseen_s_ = 0.0;                ///< The longest time without a hold since the doubt began.
   std::optional<std::int64_t> held_until_ns_;
   std::optional<double> usual_agreement_;  ///< MapAgreement::worst, of late, without doubt.
 };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace trajlo {
 namespace {
@@ -98,6 +99,11 @@ class Watched {
   bool MayEnterMap(const Seen& seen) const {
     const Window window = Standing(seen);
     return watch_.MayEnterMap(window, window.segments[0]);
+  }
+  std::optional<StepSize> Reach(const Seen& newest) const { return watch_.Reach(Standing(newest)); }
+  void Dispel() { watch_.Dispel(); }
+  void SetDensity(double m2_s3, double rad2_s3) {
+    density_ << Eigen::Vector3d::Constant(m2_s3), Eigen::Vector3d::Constant(rad2_s3);
   }
 
  private:
@@ -235,6 +241,31 @@ TEST(DoubtWatch, ABodyThatNeverAgreedIsMeasuredByWhatIsUsualElsewhere) {
   body.Add(kFlagJump);
   EXPECT_NE(body.Add(0, kWrongWall), 0U);
   EXPECT_EQ(body.Add(0, Seen{500, 490, 100, 80, 0}), 0U);
+}
+
+TEST(DoubtWatch, ReachesAsFarAsTheMotionThatWasNotSeen) {
+  Watched body(100.0, 1.0);
+  for (int i = 0; i < 10; ++i) body.Add(0);
+  EXPECT_FALSE(body.Reach(kWrongWall)) << "nothing is in doubt";
+  for (int i = 0; i < 5; ++i) body.Add(kFlagDegenerate);
+  EXPECT_FALSE(body.Reach({})) << "a direction is open, and nothing contradicts the map";
+  // 3 sqrt(q t³ / 3) with t = 0.15 s, by the densities when the doubt began.
+  const double root = 3.0 * std::sqrt(std::pow(0.15, 3) / 3.0);
+  ASSERT_TRUE(body.Reach(kWrongWall));
+  EXPECT_NEAR(body.Reach(kWrongWall)->translation_m, 10.0 * root, 1e-9);
+  body.SetDensity(1e4, 1e4);
+  body.Add(0, kWrongWall);
+  ASSERT_TRUE(body.Reach({})) << "the points hold it again, perhaps at the wrong place";
+  EXPECT_NEAR(body.Reach({})->translation_m, 10.0 * root, 1e-9);
+  EXPECT_NEAR(body.Reach({})->rotation_rad, root, 1e-9);
+}
+
+TEST(DoubtWatch, IsOverWhenTheBodyWasFound) {
+  Watched body = InDoubt();
+  body.Dispel();
+  EXPECT_TRUE(body.MayEnterMap(kNewPart));
+  EXPECT_EQ(body.Add(0, kWrongWall), 0U);
+  EXPECT_FALSE(body.Reach(kWrongWall));
 }
 
 TEST(DoubtWatch, InDoubtOnlyWhatAgreesEntersTheMap) {
