@@ -67,7 +67,7 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
 
 /// In doubt, what the window has seen is looked for in the map, around where the body seems to be.
 /// Where it is clearly found, the body is. While the doubt lasts, the map does not grow: a body at
-/// the right place would soon be out of it.
+/// the right place would soon be out of it. (A scan of one time shows too little for this.)
 void Odometry::LookAround() {
   const std::optional<StepSize> reach = doubt_.Reach(window_);
   const bool has_new_points = window_.begin_ns >= looked_until_ns_;

@@ -55,8 +55,9 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
       if (flags_ == 0) density_ = density;
       flags_ = unheld;
       causes_ |= unheld;
-      if (held_until_ns_)
+      if (held_until_ns_) {
         unseen_s_ = std::max(unseen_s_, Seconds(window.EndNs() - *held_until_ns_));
+      }
     }
   } else if (flags_ == 0) {
     const double usual = usual_agreement_.value_or(kAgreementAtFirst);
