@@ -69,9 +69,9 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
 /// Where it is clearly found, the body is. While the doubt lasts, the map does not grow: a body at
 /// the right place would soon be out of it. (A scan of one time shows too little for this.)
 void Odometry::LookAround() {
+  if (window_.size() < 2 || window_.begin_ns < looked_until_ns_) return;
   const std::optional<StepSize> reach = doubt_.Reach(window_);
-  const bool has_new_points = window_.begin_ns >= looked_until_ns_;
-  if (!reach || !has_new_points || window_.size() < 2) return;
+  if (!reach) return;
   std::vector<SegmentCloud> clouds;
   for (const Segment& segment : window_.segments) clouds.push_back(segment.cloud);
   const SegmentCloud sweep = JoinSegments(clouds);

@@ -38,6 +38,20 @@ INSTANTIATE_TEST_SUITE_P(InAnOffice, ShortCovers,
                                            ShortCover{1, 5.0, 0.3}, ShortCover{2, 4.0, 0.5},
                                            ShortCover{2, 5.0, 0.3}));
 
+TEST(ShortCover, LeavesNothingToLookForInAWindowOfOneSegment) {
+  simulation::Scenario scenario = simulation::MakeScenario("office_os0_64");
+  scenario.duration_s = 3.0;
+  scenario.faults.cover_from_s = 2.0;
+  scenario.faults.cover_s = 0.3;
+  for (const int segments : {1, 2}) {
+    OdometryOptions options;
+    options.window.segments = segments;
+    const testing::SimulatedRun run(scenario, options);
+    EXPECT_GT(run.poses.size(), 80U);
+    for (const ControlPose& pose : run.poses) EXPECT_TRUE(pose.T_world_body.IsFinite());
+  }
+}
+
 /// A recording from which a second was cut out, without a trace in its stamps.
 TEST(SplicedRecording, ABodyThatIsElsewhereIsFoundThere) {
   simulation::Scenario scenario = simulation::MakeScenario("hall_os1_16");
