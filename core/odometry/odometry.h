@@ -128,8 +128,8 @@ class Odometry {
   std::optional<std::int64_t> lost_at_ns_;
   std::optional<Beginning> beginning_ = Beginning{};  ///< Until a map begins.
   std::optional<ControlPose> first_pose_;             ///< Until the next one is final.
-  /// The end of what LookAround() has looked for.
-  std::int64_t looked_until_ns_ = std::numeric_limits<std::int64_t>::min();
+  /// LookAround() waits for a window that begins then.
+  std::int64_t next_look_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t windows_ = 0;
 };
 

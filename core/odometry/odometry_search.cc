@@ -26,8 +26,10 @@ constexpr double kFoundSigma_m = 0.2;
 constexpr double kFoundSigma_rad = 0.05;
 /// From here a window finds its place by itself.
 constexpr StepSize kSamePlace = {0.5, 0.12};
-/// What a look around may cost.
+/// What looking around may cost: how far, and how long until the next look, as a share of the time
+/// in doubt.
 constexpr double kFarthest_m = 10.0;
+constexpr double kPatience = 0.25;
 
 double NewestAgreement(const Window& window) {
   return AgreementOf(window, window.segments.back()).worst;
@@ -69,14 +71,14 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
 /// Where it is clearly found, the body is. While the doubt lasts, the map does not grow: a body at
 /// the right place would soon be out of it. (A scan of one time shows too little for this.)
 void Odometry::LookAround() {
-  if (window_.size() < 2 || window_.begin_ns < looked_until_ns_) return;
+  if (window_.size() < 2 || window_.begin_ns < next_look_ns_) return;
   const std::optional<StepSize> reach = doubt_.Reach(window_);
   if (!reach) return;
   std::vector<SegmentCloud> clouds;
   for (const Segment& segment : window_.segments) clouds.push_back(segment.cloud);
   const SegmentCloud sweep = JoinSegments(clouds);
   if (sweep.map_points.empty() || clouds.back().IsInstant()) return;
-  looked_until_ns_ = window_.EndNs();
+  next_look_ns_ = window_.EndNs() + std::llround(1e9 * kPatience * doubt_.Age_s(window_.EndNs()));
 
   SearchRegion region;
   region.center_world = window_.T_world_begin.t;

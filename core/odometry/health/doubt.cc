@@ -52,7 +52,10 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
   is_held_ = unheld == 0;
   if (!is_held_) {
     if (flags_ != 0 || has_jumped || MayHaveMoved(window.EndNs(), density)) {
-      if (flags_ == 0) density_ = density;
+      if (flags_ == 0) {
+        began_ns_ = window.EndNs();
+        density_ = density;
+      }
       flags_ = unheld;
       causes_ |= unheld;
       if (held_until_ns_) {

@@ -28,6 +28,8 @@ class DoubtWatch {
   /// newest one, has something to look for: its points hold it somewhere, or contradict the map.
   /// Three standard deviations of the motion that was not seen.
   std::optional<StepSize> Reach(const Window& window) const;
+  /// For how long the place has been in doubt at `t_ns`.
+  double Age_s(std::int64_t t_ns) const { return flags_ == 0 ? 0.0 : Seconds(t_ns - began_ns_); }
   /// The body was found: no doubt is left.
   void Dispel();
   /// Whether the newest points lie on the map much worse than usual.
@@ -42,8 +44,9 @@ class DoubtWatch {
 
   unsigned flags_ = 0;
   unsigned causes_ = 0;                  ///< All flags since the doubt began.
+  std::int64_t began_ns_ = 0;            ///< When the doubt began.
   bool is_held_ = false;                 ///< Whether the points held the newest window.
-  Vector6d density_ = Vector6d::Zero();  ///< When the doubt began: wrong windows raise it.
+  Vector6d density_ = Vector6d::Zero();  ///< By then: wrong windows raise it.
   double unseen_s_ = 0.0;                ///< The longest time without a hold since the doubt began.
   std::optional<std::int64_t> held_until_ns_;
   std::optional<double> usual_agreement_;  ///< MapAgreement::worst, of late, without doubt.
