@@ -29,7 +29,7 @@ constexpr StepSize kSamePlace = {0.5, 0.12};
 /// What looking around may cost: how far, and how long until the next look, as a share of the time
 /// in doubt.
 constexpr double kFarthest_m = 10.0;
-constexpr double kPatience = 0.25;
+constexpr double kPatience = 0.1;
 
 double NewestAgreement(const Window& window) {
   return AgreementOf(window, window.segments.back()).worst;
