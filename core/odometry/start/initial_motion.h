@@ -21,6 +21,7 @@ struct MotionEvidence {
 struct InitialMotion {
   /// The body's twist over the whole first interval: T(alpha) = Exp(alpha tau).
   Vector6d tau = Vector6d::Zero();
+  int points = 0;          ///< Of the second half.
   MotionEvidence found;    ///< For tau.
   MotionEvidence at_rest;  ///< For a sensor that stood still.
 };
@@ -56,6 +57,9 @@ struct FirstMotion {
   /// interval agree under it. Else the body accelerates or turns to and fro, or nobody knows how it
   /// moves.
   bool is_steady = true;
+  /// Whether most points of the second half agree with it. A sweep that is seen once has halves that
+  /// see different things, and hardly any.
+  bool is_shown = true;
 };
 
 /// The motion over the first interval: the estimated one if it is believed, else rest.

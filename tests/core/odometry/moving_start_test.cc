@@ -72,5 +72,28 @@ INSTANTIATE_TEST_SUITE_P(MovingStart, InAFlight,
                                            Start{"hall_os1_16", 2, 2.0}, Start{"facade_os1_16", 2},
                                            Start{"facade_os1_16", 3}));
 
+/// The whole recording is shorter than the first interval. The two halves of one sweep see different
+/// things, which agree with any motion that brings a few points together.
+class ShortRecording : public ::testing::TestWithParam<Start> {};
+
+TEST_P(ShortRecording, OfOneSweepTellsNoMotionAndSaysSo) {
+  const testing::SimulatedRun run(ScenarioOf(GetParam(), 0.1));
+  ASSERT_FALSE(run.poses.empty());
+  for (const ControlPose& pose : run.poses) {
+    EXPECT_NE(pose.flags & kFlagNoPoints, 0U);
+    EXPECT_LT(pose.T_world_body.t.norm(), 0.1);
+  }
+}
+
+TEST_P(ShortRecording, OfTwoSweepsTellsIt) {
+  const testing::SimulatedRun run(ScenarioOf(GetParam(), 0.2));
+  ASSERT_FALSE(run.poses.empty());
+  for (const ControlPose& pose : run.poses) EXPECT_EQ(pose.flags, 0U);
+  EXPECT_LT(run.LargestError_m(), 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(MovingStart, ShortRecording,
+                         ::testing::Values(Start{"street_hdl64", 1}, Start{"office_os0_64", 3}));
+
 }  // namespace
 }  // namespace trajlo
