@@ -72,8 +72,8 @@ INSTANTIATE_TEST_SUITE_P(MovingStart, InAFlight,
                                            Start{"hall_os1_16", 2, 2.0}, Start{"facade_os1_16", 2},
                                            Start{"facade_os1_16", 3}));
 
-/// The whole recording is shorter than the first interval. The two halves of one sweep see different
-/// things, which agree with any motion that brings a few points together.
+/// The whole recording is shorter than the first interval. The two halves of one sweep see
+/// different things, which agree with any motion that brings a few points together.
 class ShortRecording : public ::testing::TestWithParam<Start> {};
 
 TEST_P(ShortRecording, OfOneSweepTellsNoMotionAndSaysSo) {
