@@ -57,8 +57,8 @@ struct FirstMotion {
   /// interval agree under it. Else the body accelerates or turns to and fro, or nobody knows how it
   /// moves.
   bool is_steady = true;
-  /// Whether most points of the second half agree with it. A sweep that is seen once has halves
-  /// that see different things, and hardly any.
+  /// Whether most points of the second half agree with it. Of a single sweep hardly any do: its
+  /// halves see different things.
   bool is_shown = true;
 };
 
