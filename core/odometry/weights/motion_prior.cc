@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace trajlo {
 namespace {
@@ -38,14 +39,14 @@ Vector6d Normalized(const Innovation& innovation) {
   return z;
 }
 
-/// `factor` times the mean square of three components, weighted by what the points tell; 1, which
-/// changes nothing, where they tell nothing.
-double MeanSquare(double factor, const Vector6d& values, const Innovation& innovation,
-                  int first_component) {
+/// The mean square of three components, weighted by what the points tell; nothing where they tell
+/// nothing.
+std::optional<double> MeanSquare(const Vector6d& values, const Innovation& innovation,
+                                 int first_component) {
   Eigen::Vector3d w = innovation.gain.segment<3>(first_component);
   w = w.unaryExpr([](double gain) { return gain > kSmallestGain ? gain : 0.0; });
-  if (!(w.sum() > 0.0)) return 1.0;
-  return factor * w.dot(values.segment<3>(first_component).cwiseAbs2()) / w.sum();
+  if (!(w.sum() > 0.0)) return std::nullopt;
+  return w.dot(values.segment<3>(first_component).cwiseAbs2()) / w.sum();
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ void MotionPrior::Follow(const Innovation& innovation) {
   if (!options_.self_tuning) return;
   const Vector6d z = Normalized(innovation);
   for (int part = 0; part < 2; ++part) {
-    const double surprise = std::max(1.0, MeanSquare(1.0, z, innovation, 3 * part));
+    const double surprise = std::max(1.0, MeanSquare(z, innovation, 3 * part).value_or(1.0));
     const double density = density_[3 * part] * surprise;
     density_.segment<3>(3 * part).setConstant(std::min(density, kLargestDensity));
   }
@@ -90,9 +91,11 @@ void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
   const double floor[2] = {options_.translation_m2_s3, options_.rotation_rad2_s3};
   const double share = 1.0 - std::exp(-duration_s / kLearning_s);
   for (int part = 0; part < 2; ++part) {
-    const double surprise = MeanSquare(1.0 - decay * decay, sum_, innovation, 3 * part);
+    const std::optional<double> scatter = MeanSquare(z, innovation, 3 * part);
+    if (!scatter) continue;
+    const double surprise = (1.0 - decay * decay) * *MeanSquare(sum_, innovation, 3 * part);
     surprise_[part] += share * (surprise - surprise_[part]);
-    scatter_[part] += share * (MeanSquare(1.0, z, innovation, 3 * part) - scatter_[part]);
+    scatter_[part] += share * (*scatter - scatter_[part]);
     if (!options_.self_tuning) continue;
     const double noise = part == 0 ? std::clamp(scatter_[part], kLeastScatter, 1.0) : 1.0;
     const double score = std::min(surprise / noise - 1.0, kLargestScore);

@@ -54,6 +54,12 @@ struct Line {
 
 TEST(MotionPrior, FallsToItsFloorAtRest) {
   Line line({});
+  Innovation jolt;
+  jolt.correction.setConstant(10.0);
+  jolt.expected_variance.setOnes();
+  jolt.gain.setOnes();
+  line.prior.Follow(jolt);
+  ASSERT_GT(line.prior.density()[0], 10.0 * MotionPriorOptions().translation_m2_s3);
   for (int i = 0; i < 200; ++i) line.Step(0.0, 0.0);
   EXPECT_DOUBLE_EQ(line.prior.density()[0], MotionPriorOptions().translation_m2_s3);
 }
@@ -175,13 +181,21 @@ TEST(MotionPrior, IsNotStiffWherePointsHaveLessNoiseThanAssumed) {
 
 TEST(MotionPrior, LearnsNothingWhereThePointsTellNothing) {
   MotionPrior prior({});
-  const Vector6d before = prior.density();
   Innovation innovation;
+  innovation.gain.setConstant(0.5);
+  innovation.expected_variance.setConstant(4e-6);
+  for (int i = 0; i < 100; ++i) {  // Calmer than expected.
+    innovation.correction.setConstant(i % 2 == 0 ? 1e-4 : -1e-4);
+    prior.Learn(innovation, 0.03);
+  }
+  const Vector6d before = prior.density();
+  const double scale = prior.covariance_scale();
   innovation.correction = Vector6d::Constant(0.1);
   innovation.expected_variance = Vector6d::Zero();
   innovation.gain = Vector6d::Zero();
   for (int i = 0; i < 10; ++i) prior.Learn(innovation, 0.03);
   EXPECT_EQ(prior.density(), before);
+  EXPECT_EQ(prior.covariance_scale(), scale);
 }
 
 /// The scale after three seconds of corrections whose normalised values are z(i).
