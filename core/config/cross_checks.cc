@@ -47,6 +47,12 @@ void CheckConfig(const RunConfig& config) {
       "otherwise a voxel holds one point, and no plane is found; 0.4 of the voxel is a good value");
   RequireLess({"map.voxel_size_m", map.voxel_size_m}, {"map.radius_m", map.radius_m},
               "otherwise the map holds nothing");
+  const RegistrationOptions& registration = config.odometry.registration;
+  if (registration.kernel != KernelKind::kNone && registration.kernel_in_spreads > 0.0) {
+    RequireAtMost({"registration.sigma_m", registration.sigma_m},
+                  {"3 x expert.registration.kernel_m", kWidestKernel * registration.kernel_m},
+                  "the fitted kernel is between the two");
+  }
 }
 
 }  // namespace trajlo

@@ -8,6 +8,9 @@
 
 namespace trajlo {
 
+/// A kernel that is fitted is at most so many times as wide as RegistrationOptions::kernel_m.
+constexpr double kWidestKernel = 3.0;
+
 /// How a point's distance to its plane is weighed.
 struct RegistrationOptions {
   double sigma_m = 0.03;

@@ -23,7 +23,6 @@ constexpr std::size_t kAskedOfSegment = 128;
 constexpr std::size_t kAskedOfAxis = 128;
 /// Fewer points have no scatter.
 constexpr std::size_t kFewest = 5;
-constexpr double kWidestInKernels = 3.0;
 
 /// sum w n nᵀ, over some of the points.
 Eigen::Matrix3d InformationOfNormals(const Window& window) {
@@ -51,6 +50,7 @@ void UpdateAxes(Window* window) {
   const double least = (axes.transpose() * information * axes).diagonal().minCoeff();
   if (!(least > kNearlyLeast * eigen.eigenvalues()[0])) return;
   window->kernel_axes = eigen.eigenvectors();
+  window->noise.widening.fill(1.0);
   for (Segment& segment : window->segments) AssignAxes(window->kernel_axes, &segment.points);
   ForgetLinearizations(window);
 }
@@ -105,7 +105,7 @@ void FitKernel(const RegistrationOptions& options, Window* window) {
     if (distances[axis].size() < kFewest) continue;
     const double spread_m = kSigmaOfMedian * WeightedMedian(&distances[axis]);
     const double width_m = std::clamp(options.kernel_in_spreads * spread_m, options.sigma_m,
-                                      kWidestInKernels * options.kernel_m);
+                                      kWidestKernel * options.kernel_m);
     double& widening = window->noise.widening[axis];
     const double change = width_m / options.kernel_m - widening;
     if (std::abs(change) <= kSmallChange * widening) continue;
