@@ -88,8 +88,8 @@ class FirstInterval {
     return {first_half_, second_half_, cloud_.lidar_origins_body_m, tau, map_options_, threads_};
   }
 
-  int VotesAlong(const Eigen::Vector3d& direction, const Vector6d& tau) const {
-    return At(tau).VotesAlong(direction, place_m_);
+  int VotesAlong(const Eigen::Vector3d& direction, const MotionHypothesis& hypothesis) const {
+    return hypothesis.VotesAlong(direction, place_m_);
   }
 
   /// Whether what faces a direction says that the motion along it is the right one.
@@ -177,7 +177,7 @@ Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& inte
       taus[i].head<3>() += (start_m - found_m) * direction;
       taus[i] = along.Refine(taus[i], kSearchFirstRound, kSearchLastRound);
     }
-    votes[i] = interval.VotesAlong(direction, taus[i]);
+    votes[i] = interval.VotesAlong(direction, interval.At(taus[i]));
   });
   const auto most = std::max_element(votes.begin(), votes.end());
   const Vector6d best = along.Refine(taus[static_cast<std::size_t>(most - votes.begin())],
@@ -188,7 +188,7 @@ Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& inte
     if (apart_m > 0.5 * step_m) elsewhere = std::max(elsewhere, static_cast<double>(votes[i]));
   }
   const double clearly = elsewhere + kClearDeviations * std::sqrt(elsewhere);
-  return interval.VotesAlong(direction, best) < clearly ? found : best;
+  return interval.VotesAlong(direction, interval.At(best)) < clearly ? found : best;
 }
 
 }  // namespace
@@ -208,7 +208,7 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
   const auto evidence_for = [&](const Vector6d& tau) {
     const MotionHypothesis hypothesis = interval.At(tau);
     return MotionEvidence{hypothesis.Agreeing(), hypothesis.WithPlane(),
-                          is_searched ? interval.VotesAlong(*direction, tau) : 0};
+                          is_searched ? interval.VotesAlong(*direction, hypothesis) : 0};
   };
   motion.found = evidence_for(motion.tau);
   motion.at_rest = evidence_for(Vector6d::Zero());
