@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/odometry/health/agreement.h"
 #include "core/odometry/health/belief.h"
 #include "core/odometry/parallel/side_task.h"
 #include "core/odometry/stopwatch.h"
@@ -81,7 +82,7 @@ void Odometry::Step(SegmentCloud cloud) {
   WindowStatistics statistics;
   statistics.restless = RestlessStep(window_.segments.back().cloud);
   AssociateAndSolve(&statistics);
-  if (doubt_.IsContradicted(window_)) LookAgain(predicted, &statistics);
+  if (doubt_.IsContradicted(statistics.agreement)) LookAgain(predicted, &statistics);
   statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
   if (IsBlind()) {
     TakeBackAndSearch(predicted);
@@ -93,7 +94,7 @@ void Odometry::Step(SegmentCloud cloud) {
   const int to_keep = SegmentsToKeep();
   while (window_.size() > to_keep) Leave(&statistics);
   Report(&statistics);
-  LookAround();
+  LookAround(statistics.agreement);
 }
 
 /// Until the step is small: which planes the points belong to, and the poses that bring them there.
@@ -113,6 +114,7 @@ void Odometry::AssociateAndSolve(WindowStatistics* s) {
     }
     s->milliseconds_solve += watch.Milliseconds();
   }
+  s->agreement = AgreementOf(window_, *newest).worst;
 }
 
 void Odometry::BelieveOrRevert(const std::vector<SE3>& predicted,

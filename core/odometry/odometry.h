@@ -95,7 +95,8 @@ class Odometry {
   void NoteSupport();
   void AssociateAndSolve(WindowStatistics* statistics);
   void LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics);
-  void LookAround();
+  Eigen::Vector3d TurnAxis() const;
+  void LookAround(double agreement);
   void MoveWindow(const SweepMotion& found);
   void BelieveOrRevert(const std::vector<SE3>& predicted, const WindowStatistics& statistics);
   void LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics);

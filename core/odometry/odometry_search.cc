@@ -7,7 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "core/odometry/health/agreement.h"
 #include "core/odometry/health/belief.h"
 #include "core/odometry/odometry.h"
 #include "core/odometry/segments/join_segments.h"
@@ -31,10 +30,6 @@ constexpr StepSize kSamePlace = {0.5, 0.12};
 constexpr double kFarthest_m = 10.0;
 constexpr double kPatience = 0.1;
 
-double NewestAgreement(const Window& window) {
-  return AgreementOf(window, window.segments.back()).worst;
-}
-
 }  // namespace
 
 /// The points contradict the map where the motion prior led them: the body began to turn as the
@@ -55,7 +50,7 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
   again.milliseconds_associate = statistics->milliseconds_associate;
   again.milliseconds_solve = statistics->milliseconds_solve;
   AssociateAndSolve(&again);
-  if (again.is_finite && NewestAgreement(window_) > NewestAgreement(first)) {
+  if (again.is_finite && again.agreement > statistics->agreement) {
     motion_prior_.Apply(&window_);
     motion_prior_.Follow(MeasureInnovation(window_, predicted.back()));
     motion_prior_.Apply(&window_);
@@ -67,12 +62,18 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
   }
 }
 
+/// About which the body may have turned most while its points did not hold it. A body on a rope
+/// turns about no vertical; but where only the floor was in view, its tilt is known.
+Eigen::Vector3d Odometry::TurnAxis() const {
+  return doubt_.open_axis_world().value_or(attitude_.VerticalInWorld());
+}
+
 /// In doubt, what the window has seen is looked for in the map, around where the body seems to be.
 /// Where it is clearly found, the body is. While the doubt lasts, the map does not grow: a body at
 /// the right place would soon be out of it. (A scan of one time shows too little for this.)
-void Odometry::LookAround() {
+void Odometry::LookAround(double agreement) {
   if (window_.size() < 2 || window_.begin_ns < next_look_ns_) return;
-  const std::optional<StepSize> reach = doubt_.Reach(window_);
+  const std::optional<StepSize> reach = doubt_.Reach(agreement);
   if (!reach) return;
   std::vector<SegmentCloud> clouds;
   for (const Segment& segment : window_.segments) clouds.push_back(segment.cloud);
@@ -84,11 +85,11 @@ void Odometry::LookAround() {
   region.center_world = window_.T_world_begin.t;
   region.radius_m = std::min(kSamePlace.translation_m + reach->translation_m, kFarthest_m);
   region.q_world_body = {window_.T_world_begin.q};
-  region.vertical_world = attitude_.VerticalInWorld();
+  region.turn_axis_world = TurnAxis();
   region.max_turn_rad = std::min(kSamePlace.rotation_rad + reach->rotation_rad, M_PI);
   // A window that contradicts the map does not tell how the body moves, either.
   const Vector6d tau =
-      doubt_.IsContradicted(window_)
+      doubt_.IsContradicted(agreement)
           ? sweep.Duration_s() * MotionOfFirstInterval(sweep, options_.initialization, options_.map,
                                                        options_.registration, &threads_)
                                      .velocity
@@ -148,7 +149,7 @@ void Odometry::NoteSupport() {
 /// From the end of the window on, nobody knows where the body is.
 void Odometry::BeginSearch() {
   search_.emplace(LastSeen{support_.supported_until_ns(), window_.EndNs(), window_.EndPose(),
-                           window_.EndVelocity(), motion_prior_.density()},
+                           window_.EndVelocity(), motion_prior_.density(), TurnAxis()},
                   attitude_, options_);
 }
 
@@ -204,6 +205,11 @@ void Odometry::GetLost(const ReturnSweep& sweep) {
   if (!lost_at_ns_) lost_at_ns_ = support_.supported_until_ns() + 1;
   SettleWindow(sweep.cloud.begin_ns);
   map_ = MapPyramid(options_.map);
+  // What was usual there says nothing here.
+  inlier_watch_ = InlierWatch();
+  loss_watch_ = LossWatch();
+  support_ = SupportWatch();
+  doubt_ = DoubtWatch();
   const SE3 T_begin = search_->Predict(sweep.cloud.begin_ns);
   Begin({search_->TakeSegments(), T_begin, kFlagGap | kFlagLost});
 }

@@ -59,12 +59,12 @@ void Judge(double points_per_error, Window* window, WindowStatistics* statistics
                                           newest.T_world_end, window->noise);
   if (!window->is_believed) {
     statistics->flags |= kFlagReverted;
+    statistics->agreement = AgreementOf(*window, newest).worst;
   } else if (!statistics->has_converged) {
     statistics->flags |= kFlagNotConverged;
   }
   if (window->is_believed && HasJumped(*statistics, *window)) statistics->flags |= kFlagJump;
   if (IsUnsupported(*window, newest)) statistics->flags |= kFlagNoPoints;
-  statistics->agreement = AgreementOf(*window, newest).worst;
   const WindowCondition condition = ConditionOf(*window, points_per_error);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/health/doubt.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "core/odometry/health/support.h"
@@ -27,6 +28,20 @@ constexpr double kMoved_m = kOnPlane_m;
 constexpr double kMoved_rad = 0.45 * kOnPlane_m;
 /// A segment that is so many times as long as the one before spans a pause: two scans are missing.
 constexpr double kPause = 2.5;
+
+/// All planes face one direction if the others have at most this share of their information.
+constexpr double kOtherNormals = 0.02;
+
+/// The direction that the planes of nearly all points of a segment face: only the floor is in view.
+std::optional<Eigen::Vector3d> CommonNormal(const Segment& segment) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const RegistrationPoint& point : segment.points) {
+    sum += point.weight * point.normal_world * point.normal_world.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum);
+  if (!(eigen.eigenvalues()[1] < kOtherNormals * eigen.eigenvalues()[2])) return std::nullopt;
+  return eigen.eigenvectors().col(2);
+}
 
 /// Whether the newest segment is much longer than the one before: nothing was measured within it.
 bool IsBehindPause(const Window& window) {
@@ -58,6 +73,7 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
       }
       flags_ = unheld;
       causes_ |= unheld;
+      if (const auto axis = CommonNormal(window.segments.back())) open_axis_world_ = axis;
       if (held_until_ns_) {
         unseen_s_ = std::max(unseen_s_, Seconds(window.EndNs() - *held_until_ns_));
       }
@@ -74,8 +90,8 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
   }
 }
 
-std::optional<StepSize> DoubtWatch::Reach(const Window& window) const {
-  if (flags_ == 0 || !(is_held_ || IsContradicted(window))) return std::nullopt;
+std::optional<StepSize> DoubtWatch::Reach(double agreement) const {
+  if (flags_ == 0 || !(is_held_ || IsContradicted(agreement))) return std::nullopt;
   return StepSize{3.0 * UnseenSigma(density_[0], unseen_s_),
                   3.0 * UnseenSigma(density_[3], unseen_s_)};
 }
@@ -84,6 +100,7 @@ void DoubtWatch::Dispel() {
   flags_ = 0;
   causes_ = 0;
   unseen_s_ = 0.0;
+  open_axis_world_.reset();
 }
 
 bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const {
@@ -91,8 +108,8 @@ bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const 
   return trajlo::MayHaveMoved(density, Seconds(t_ns - *held_until_ns_), kMoved_m, kMoved_rad);
 }
 
-bool DoubtWatch::IsContradicted(const Window& window) const {
-  return !Agrees(window, window.segments.back(), 0.0, kNoContradiction);
+bool DoubtWatch::IsContradicted(double agreement) const {
+  return agreement < kNoContradiction * usual_agreement_.value_or(kAgreementAtFirst);
 }
 
 bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {

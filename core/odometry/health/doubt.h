@@ -24,16 +24,20 @@ class DoubtWatch {
 
   /// Why the newest pose is in doubt: flags of a window, or 0.
   unsigned flags() const { return flags_; }
-  /// How far the body may be from where it seems to be, while that is in doubt and `window`, the
-  /// newest one, has something to look for: its points hold it somewhere, or contradict the map.
+  /// How far the body may be from where it seems to be, while that is in doubt and the
+  /// newest window has something to look for: its points hold it somewhere, or contradict the map.
   /// Three standard deviations of the motion that was not seen.
-  std::optional<StepSize> Reach(const Window& window) const;
+  std::optional<StepSize> Reach(double agreement) const;
+  /// The axis about which the body may have turned unseen: the direction that nearly all planes
+  /// faced since the doubt began, if they did.
+  const std::optional<Eigen::Vector3d>& open_axis_world() const { return open_axis_world_; }
   /// For how long the place has been in doubt at `t_ns`.
   double Age_s(std::int64_t t_ns) const { return flags_ == 0 ? 0.0 : Seconds(t_ns - began_ns_); }
   /// The body was found: no doubt is left.
   void Dispel();
-  /// Whether the newest points lie on the map much worse than usual.
-  bool IsContradicted(const Window& window) const;
+  /// Whether the newest points lie on the map much worse than usual; `agreement` is their
+  /// MapAgreement::worst.
+  bool IsContradicted(double agreement) const;
   /// Whether the points of a segment may extend the map.
   bool MayEnterMap(const Window& window, const Segment& segment) const;
 
@@ -48,6 +52,7 @@ class DoubtWatch {
   bool is_held_ = false;                 ///< Whether the points held the newest window.
   Vector6d density_ = Vector6d::Zero();  ///< By then: wrong windows raise it.
   double unseen_s_ = 0.0;                ///< The longest time without a hold since the doubt began.
+  std::optional<Eigen::Vector3d> open_axis_world_;
   std::optional<std::int64_t> held_until_ns_;
   std::optional<double> usual_agreement_;  ///< MapAgreement::worst, of late, without doubt.
 };

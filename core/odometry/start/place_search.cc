@@ -176,7 +176,7 @@ class PlaceSearch {
       for (int i = -steps; i <= steps; ++i) {
         const double turn_rad = region_.mean_turn_rad + i * step_rad;
         TurnedSweep turned = {
-            Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, region_.vertical_world)) * q, {}};
+            Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, region_.turn_axis_world)) * q, {}};
         for (const Eigen::Vector3d& p : points_) {
           turned.cells.emplace_back(
               (turned.q_world_body * p / cell_m_).array().floor().cast<int>());

@@ -14,9 +14,9 @@ namespace trajlo {
 struct SearchRegion {
   Eigen::Vector3d center_world = Eigen::Vector3d::Zero();
   double radius_m = 0.0;
-  /// Attitudes, each to be turned about the vertical by mean_turn_rad ± max_turn_rad.
+  /// Attitudes, each to be turned about turn_axis_world by mean_turn_rad ± max_turn_rad.
   std::vector<Eigen::Quaterniond> q_world_body;
-  Eigen::Vector3d vertical_world = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d turn_axis_world = Eigen::Vector3d::UnitZ();
   double mean_turn_rad = 0.0;
   double max_turn_rad = 0.0;
 };

@@ -24,6 +24,10 @@ constexpr double kMaxRadius_m = 40.0;
 constexpr double kMinTurn_rad = 0.1;
 /// A velocity says nothing after so long.
 constexpr double kLongestPrediction_s = 5.0;
+/// How far the motion of a sweep may be from a constant twist: points must agree to twice that.
+constexpr double kBend_m = 0.06;
+/// But a sweep has so many segments.
+constexpr double kFewestSegments = 3.0;
 /// Attitudes nearer than this are one.
 constexpr double kSameTilt_rad = 0.05;
 
@@ -42,8 +46,7 @@ void ReturnSearch::Add(SegmentCloud segment) {
   since_look_s_ += segment.Duration_s();
   if (segment.IsInstant()) segments_.clear();
   segments_.push_back(std::move(segment));
-  // Only the newest first_interval_s: over longer the motion is no constant twist.
-  const auto longest_ns = std::llround(1e9 * options_.initialization.first_interval_s);
+  const auto longest_ns = std::llround(1e9 * Longest_s());
   while (segments_.size() > 1 &&
          (segments_.back().end_ns - segments_.front().begin_ns > longest_ns ||
           segments_.front().map_points.empty())) {
@@ -51,11 +54,19 @@ void ReturnSearch::Add(SegmentCloud segment) {
   }
 }
 
+/// White noise on acceleration takes a body off the straight way between two of its places, T
+/// apart, by a variance of q t² (T - t)² / (3 T) at t; the mean of that is q T³ / 90.
+double ReturnSearch::Longest_s() const {
+  const double twist_s = std::cbrt(90.0 * kBend_m * kBend_m / last_.density[0]);
+  return std::min(std::max(twist_s, kFewestSegments * options_.segmenter.interval_s),
+                  options_.initialization.first_interval_s);
+}
+
 bool ReturnSearch::IsDue() const {
   if (segments_.empty()) return false;
   if (segments_.back().IsInstant()) return since_look_s_ >= kPatience * searched_s_;
   const double sweep_s = Seconds(segments_.back().end_ns - segments_.front().begin_ns);
-  const double enough_s = options_.initialization.first_interval_s - options_.segmenter.interval_s;
+  const double enough_s = Longest_s() - options_.segmenter.interval_s;
   return sweep_s >= enough_s && since_look_s_ >= std::max(enough_s, kPatience * searched_s_);
 }
 
@@ -69,14 +80,14 @@ SearchRegion ReturnSearch::Region(std::int64_t t_ns) const {
   const double moving_s = std::min(Seconds(t_ns - last_.t_ns), kLongestPrediction_s);
   const double moved_s = std::min(unseen_s, kLongestPrediction_s);
   SearchRegion region;
-  region.vertical_world = attitude_.VerticalInWorld();
+  region.turn_axis_world = last_.turn_axis_world;
   region.center_world = (last_.T_world_body * se3::Exp(kMiddle * moving_s * last_.velocity)).t;
   const double way_m = moved_s * last_.velocity.head<3>().norm();
   const double reach_m = Reach(last_.density[0], kAcceleration_m_s2, unseen_s) + kMinRadius_m;
   region.radius_m = std::min(kMiddle * way_m + reach_m, kMaxRadius_m);
 
   const Eigen::Vector3d turn_rate_world = last_.T_world_body.q * last_.velocity.tail<3>();
-  region.mean_turn_rad = kMiddle * moving_s * turn_rate_world.dot(region.vertical_world);
+  region.mean_turn_rad = kMiddle * moving_s * turn_rate_world.dot(region.turn_axis_world);
   const double turn_rad = kMiddle * moved_s * last_.velocity.tail<3>().norm();
   const double turn_reach_rad =
       Reach(last_.density[3], kTurnAcceleration_rad_s2, unseen_s) + kMinTurn_rad;

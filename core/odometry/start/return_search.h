@@ -19,6 +19,7 @@ struct LastSeen {
   SE3 T_world_body;
   Vector6d velocity = Vector6d::Zero();  ///< [rho; theta] per second, body frame.
   Vector6d density = Vector6d::Zero();   ///< Of the acceleration, see MotionPrior.
+  Eigen::Vector3d turn_axis_world = Eigen::Vector3d::UnitZ();  ///< See SearchRegion.
 };
 
 /// The newest points after a time unseen, and the motion during them.
@@ -55,6 +56,8 @@ class ReturnSearch {
   SE3 Predict(std::int64_t t_ns) const;
 
  private:
+  /// The newest segments over longer are no sweep.
+  double Longest_s() const;
   SearchRegion Region(std::int64_t t_ns) const;
 
   LastSeen last_;

@@ -56,10 +56,10 @@ TEST(MapAgreement, IsThatOfTheDirectionThatAgreesLeast) {
 
 TEST(DoubtWatch, PointsThatLieOnTheMapMuchWorseThanUsualContradictIt) {
   const DoubtWatch watch;
-  EXPECT_FALSE(watch.IsContradicted(Standing({})));
-  EXPECT_TRUE(watch.IsContradicted(Standing({500, 490, 100, 40, 0})));
+  EXPECT_FALSE(watch.IsContradicted(Agreement({}).worst));
+  EXPECT_TRUE(watch.IsContradicted(Agreement({500, 490, 100, 40, 0}).worst));
   // What has no plane says nothing.
-  EXPECT_FALSE(watch.IsContradicted(Standing({500, 490, 100, 98, 1000})));
+  EXPECT_FALSE(watch.IsContradicted(Agreement({500, 490, 100, 98, 1000}).worst));
 }
 
 TEST(MapAgreement, ADirectionThatFewPointsFaceSaysLittle) {
@@ -100,7 +100,10 @@ class Watched {
     const Window window = Standing(seen);
     return watch_.MayEnterMap(window, window.segments[0]);
   }
-  std::optional<StepSize> Reach(const Seen& newest) const { return watch_.Reach(Standing(newest)); }
+  std::optional<StepSize> Reach(const Seen& newest) const {
+    return watch_.Reach(Agreement(newest).worst);
+  }
+  const std::optional<Eigen::Vector3d>& open_axis() const { return watch_.open_axis_world(); }
   void Dispel() { watch_.Dispel(); }
   void SetDensity(double m2_s3, double rad2_s3) {
     density_ << Eigen::Vector3d::Constant(m2_s3), Eigen::Vector3d::Constant(rad2_s3);
@@ -258,6 +261,21 @@ TEST(DoubtWatch, ReachesAsFarAsTheMotionThatWasNotSeen) {
   ASSERT_TRUE(body.Reach({})) << "the points hold it again, perhaps at the wrong place";
   EXPECT_NEAR(body.Reach({})->translation_m, 10.0 * root, 1e-9);
   EXPECT_NEAR(body.Reach({})->rotation_rad, root, 1e-9);
+}
+
+TEST(DoubtWatch, ABodyThatSawOnlyAFloorMayHaveTurnedOnIt) {
+  Watched body;
+  const Seen only_floor{500, 490, 2, 2, 0};
+  body.Add(0, only_floor);
+  EXPECT_FALSE(body.open_axis()) << "nothing is in doubt";
+  for (int i = 0; i < 3; ++i) body.Add(kFlagDegenerate);
+  EXPECT_FALSE(body.open_axis()) << "the wall holds it";
+  for (int i = 0; i < 3; ++i) body.Add(kFlagDegenerate, only_floor);
+  body.Add(kFlagDegenerate);
+  ASSERT_TRUE(body.open_axis()) << "it may have turned before the wall came back";
+  EXPECT_NEAR(std::abs(body.open_axis()->z()), 1.0, 1e-4);
+  body.Dispel();
+  EXPECT_FALSE(body.open_axis());
 }
 
 TEST(DoubtWatch, IsOverWhenTheBodyWasFound) {
