@@ -115,7 +115,7 @@ std::vector<LidarPlace> Run::Rig() const {
   std::vector<LidarPlace> rig;
   for (std::size_t i = 0; i < given.size(); ++i) {
     rig.push_back(CorrectedPlace(i, given[i], request_.config.input.clock_offset_s.Of(i),
-                                 odometry_.rig().Correction(i), odometry_.rig().IsKnown(i)));
+                                 odometry_.rig().Correction(i), odometry_.rig().EvidenceFor(i)));
   }
   return rig;
 }
@@ -161,6 +161,7 @@ void Run::Summarise() const {
   for (std::size_t i = 1; i < poses.size(); ++i) {
     s.path_length_m += (poses[i].T_world_body.t - poses[i - 1].T_world_body.t).norm();
   }
+  s.too_short = !poses.empty() && s.windows.windows == 0;
   s.flags = Flags();
   s.rig = Rig();
   for (const std::string& warning : RigWarnings(s.rig)) s.warnings.push_back(warning);

@@ -33,6 +33,7 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
                 [this](SegmentCloud segment) {
                   rig_.Apply(&segment);
                   Take(std::move(segment));
+                  HandOnPoses();
                 }),
       rig_(options.segmenter.learn_rig),
       map_(options.map),
@@ -47,6 +48,7 @@ void Odometry::Finish() {
   if (search_ && search_->HasPoints()) Search(true);
   if (beginning_) Start();
   SettleWindow(std::numeric_limits<std::int64_t>::max());
+  HandOnPoses();
 }
 
 void Odometry::Take(SegmentCloud cloud) {
@@ -224,7 +226,16 @@ void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
   if (trajectory_.empty()) segments_.NoteFirstPose(pose.t_ns);
   trajectory_.Append(pose);
   attitude_.Add(pose.T_world_body.q);
-  if (on_pose_) on_pose_(pose, motion_prior_.covariance_scale() * covariance);
+  if (on_pose_) settled_.emplace_back(pose, motion_prior_.covariance_scale() * covariance);
+}
+
+/// When all else is done: the callback may throw.
+void Odometry::HandOnPoses() {
+  while (!settled_.empty()) {
+    const auto [pose, covariance] = settled_.front();
+    settled_.pop_front();
+    on_pose_(pose, covariance);
+  }
 }
 
 }  // namespace trajlo

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/odometry/health/doubt.h"
 #include "core/odometry/health/inlier_watch.h"
@@ -105,6 +107,7 @@ class Odometry {
   int SegmentsToKeep() const;
   void Leave(WindowStatistics* statistics);
   void Report(WindowStatistics* statistics);
+  void HandOnPoses();
   void SettleWindow(std::int64_t before_ns);
   void SettleFront();
   void Settle(const ControlPose& pose, const Matrix6d& covariance);
@@ -124,6 +127,8 @@ class Odometry {
   std::optional<ReturnSearch> search_;  ///< While nobody knows where the body is.
   Window window_;
   Trajectory trajectory_;
+  /// Settled, and not handed on yet.
+  std::deque<std::pair<ControlPose, Matrix6d>> settled_;
   std::function<void(const WindowStatistics&)> on_window_;
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;

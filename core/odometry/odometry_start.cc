@@ -42,8 +42,8 @@ void Odometry::TakeFirst(SegmentCloud cloud) {
 /// The motion during the first interval, then a map, and a window that begins where that ends. A
 /// constant twist takes the whole interval to the map, if it explains it. Else the map is of the
 /// first segment alone: points of a wrong motion would blur it, and what follows would agree with
-/// the blur. Where the recording ends within the interval, the motion must be shown, or nobody
-/// knows it.
+/// the blur. Where the recording ends within the interval, the motion must be shown, and is in
+/// doubt all the same: no window has confirmed it.
 void Odometry::Start() {
   Beginning beginning = *std::exchange(beginning_, std::nullopt);
   const bool is_cut_short = !beginning.IsWhole(options_.initialization);
@@ -53,8 +53,8 @@ void Odometry::Start() {
   const SegmentCloud interval = JoinSegments(segments);
   FirstMotion motion = MotionOfFirstInterval(interval, options_.initialization, options_.map,
                                              options_.registration, &threads_);
-  if (is_cut_short && !motion.is_shown) {
-    motion.velocity.setZero();
+  if (is_cut_short) {
+    if (!motion.is_shown) motion.velocity.setZero();
     beginning.flags |= kFlagNoPoints;
   }
   const bool is_whole = motion.is_steady && !segments.front().IsInstant();

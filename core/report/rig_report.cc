@@ -22,7 +22,7 @@ std::string Distance(const LidarPlace& place) {
 }  // namespace
 
 LidarPlace CorrectedPlace(std::size_t lidar, const SE3& T_body_lidar, double clock_offset_s,
-                          const LidarCorrection& correction, bool is_known) {
+                          const LidarCorrection& correction, RigEvidence evidence) {
   const SE3 found = correction.T_body * T_body_lidar;
   return {lidar,
           found,
@@ -30,7 +30,7 @@ LidarPlace CorrectedPlace(std::size_t lidar, const SE3& T_body_lidar, double clo
           (found.t - T_body_lidar.t).norm(),
           so3::Log(correction.T_body.q).norm(),
           correction.clock_s,
-          is_known};
+          evidence};
 }
 
 std::string CorrectionsText(const std::vector<LidarPlace>& rig) {
@@ -38,7 +38,7 @@ std::string CorrectionsText(const std::vector<LidarPlace>& rig) {
   for (const LidarPlace& place : rig) {
     const bool has_moved = place.moved_m > kRounding || place.turned_rad > kRounding ||
                            std::abs(place.clock_moved_s) > kRounding;
-    if (!place.is_known || !has_moved) continue;
+    if (place.evidence != RigEvidence::kConfirmed || !has_moved) continue;
     text += (text.empty() ? "LiDAR " : ", LiDAR ") + std::to_string(place.lidar) + " by " +
             Distance(place);
   }
@@ -48,13 +48,25 @@ std::string CorrectionsText(const std::vector<LidarPlace>& rig) {
 std::vector<std::string> RigWarnings(const std::vector<LidarPlace>& rig) {
   std::vector<std::string> warnings;
   for (const LidarPlace& place : rig) {
+    const std::string name = "LiDAR " + std::to_string(place.lidar) + " (counted from 0) ";
+    if (place.evidence == RigEvidence::kContradicted) {
+      warnings.push_back(name +
+                         "is not where sensor.T_body_lidar says, nor near it: its points lie "
+                         "beside what the others see, and were kept out of the map");
+      continue;
+    }
+    if (place.evidence == RigEvidence::kNone) {
+      warnings.push_back(name +
+                         "sees nothing that the others saw before: nothing confirms its "
+                         "sensor.T_body_lidar");
+      continue;
+    }
     const bool is_near = place.moved_m < kFar_m && place.turned_rad < kFar_rad &&
                          std::abs(place.clock_moved_s) < kFar_s;
     if (is_near) continue;
-    warnings.push_back("LiDAR " + std::to_string(place.lidar) + " (counted from 0) seems to be " +
-                       Distance(place) +
-                       " from where sensor.T_body_lidar and input.clock_offset_s say; what was "
-                       "found is in rig.yaml");
+    warnings.push_back(name + "is " + Distance(place) +
+                       " away from what sensor.T_body_lidar and input.clock_offset_s say; what "
+                       "was found is in rig.yaml");
   }
   return warnings;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/odometry/rig/rig_calibration.h"
 #include "core/odometry/segments/lidar_correction.h"
 #include "manifolds/se3.h"
 
@@ -18,18 +19,19 @@ struct LidarPlace {
   double moved_m = 0.0;         ///< From where it was said to be.
   double turned_rad = 0.0;      ///< Likewise.
   double clock_moved_s = 0.0;   ///< Likewise.
-  bool is_known = false;        ///< False: it has not moved enough to tell.
+  RigEvidence evidence = RigEvidence::kNotYet;
 };
 
 /// A LiDAR by the pose and clock offset that were given, and what they are corrected by.
 LidarPlace CorrectedPlace(std::size_t lidar, const SE3& T_body_lidar, double clock_offset_s,
-                          const LidarCorrection& correction, bool is_known);
+                          const LidarCorrection& correction, RigEvidence evidence);
 
 /// "LiDAR 1 by 0.012 m, 0.35 degrees and 4.8 ms": of all that are known, but those that stayed.
 /// Empty if there is none.
 std::string CorrectionsText(const std::vector<LidarPlace>& rig);
 
-/// One for each LiDAR that is farther off than any calibration or drawing should be.
+/// One for each LiDAR that is farther off than any calibration or drawing should be, or of which
+/// that cannot be told.
 std::vector<std::string> RigWarnings(const std::vector<LidarPlace>& rig);
 
 }  // namespace trajlo

@@ -66,6 +66,20 @@ Json FlaggedJson(const PoseFlags& flags) {
   return json;
 }
 
+const char* EvidenceName(RigEvidence evidence) {
+  switch (evidence) {
+    case RigEvidence::kContradicted:
+      return "contradicted";
+    case RigEvidence::kNotYet:
+      return "not_yet";
+    case RigEvidence::kNone:
+      return "none";
+    case RigEvidence::kConfirmed:
+      return "confirmed";
+  }
+  return "";
+}
+
 Json RigJson(const std::vector<LidarPlace>& rig) {
   Json json = Json::array();
   for (const LidarPlace& place : rig) {
@@ -78,7 +92,7 @@ Json RigJson(const std::vector<LidarPlace>& rig) {
                     {"moved_m", place.moved_m},
                     {"turned_rad", place.turned_rad},
                     {"clock_moved_s", place.clock_moved_s},
-                    {"known", place.is_known}});
+                    {"evidence", EvidenceName(place.evidence)}});
   }
   return json;
 }

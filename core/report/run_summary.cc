@@ -97,6 +97,16 @@ std::string RunSummary::MissingInput() const {
     parts.push_back("by its stamp, the last scan comes " + Seconds(times.doubtful_end_s) +
                     " after the one before; nothing confirms that, and it was left out");
   }
+  if (too_short) {
+    parts.emplace_back(
+        "the recording is too short for a window (expert.initialization.first_interval_s): nothing "
+        "confirms how the body moved");
+  }
+  for (const LidarPlace& place : rig) {
+    if (place.evidence != RigEvidence::kContradicted) continue;
+    parts.push_back("LiDAR " + std::to_string(place.lidar) +
+                    " does not fit the others: sensor.T_body_lidar is wrong");
+  }
   if (times.clocks_may_differ) parts.emplace_back("the clocks of the LiDARs may differ");
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", and ") + part;

@@ -38,6 +38,7 @@ struct RunSummary {
 
   // What came out.
   WindowTotals windows;
+  bool too_short = false;  ///< There are poses, and no window has confirmed them.
   std::size_t poses_written = 0;
   PoseFlags flags;
   std::size_t map_points = 0;

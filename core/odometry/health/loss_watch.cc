@@ -2,6 +2,7 @@
 #include "core/odometry/health/loss_watch.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 
 namespace trajlo {
@@ -11,6 +12,8 @@ namespace {
 constexpr std::int64_t kFewPoints_ns = 1'000'000'000;
 /// Or when of all windows of this time ...
 constexpr std::int64_t kSpan_ns = 3'000'000'000;
+/// (at least so many windows: a few scans, far apart, have no share) ...
+constexpr std::size_t kFewestWindows = 20;
 /// ... more than this share did not settle, or were reverted: planes that never settle are not
 /// those of the scene. A fast turn to and fro leaves half of them unsettled, at the right place ...
 constexpr double kMaxUnsettledShare = 0.8;
@@ -44,7 +47,7 @@ bool LossWatch::TooFewSettled(const WindowStatistics& window) {
   const bool is_doubtful = is_unsettled && (window.flags & ~kNoDoubt) != 0;
   recent_.push_back({window.end_ns, is_unsettled, is_doubtful});
   const std::int64_t begin_ns = window.end_ns - kSpan_ns;
-  while (recent_.front().end_ns < begin_ns) {
+  while (recent_.size() > kFewestWindows && recent_.front().end_ns < begin_ns) {
     recent_.pop_front();
     span_is_full_ = true;
   }

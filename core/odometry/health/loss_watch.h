@@ -11,7 +11,7 @@ namespace trajlo {
 
 /// Notices when the estimator stops following the scene. A trajectory that is wrong looks smooth
 /// and has many inliers; what gives it away is that its windows do not settle, or that few
-/// points agree for a second.
+/// points have a plane for a second.
 class LossWatch {
  public:
   /// Takes the next window; the time at which the loss began, if this window is lost.
@@ -28,7 +28,7 @@ class LossWatch {
   double Share(bool Window::*what) const;
 
   std::optional<std::int64_t> few_since_ns_;
-  std::deque<Window> recent_;  ///< Those of the last three seconds.
+  std::deque<Window> recent_;  ///< Those of the last three seconds, twenty at least.
   bool span_is_full_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/odometry/health/support.h"
 #include "core/odometry/window/step_size.h"
 
 namespace trajlo {
@@ -21,6 +22,11 @@ constexpr double kPlace_m = 0.25;
 constexpr double kLeverArm_m = 5.0;
 /// A LiDAR is known when it has seen the map from this many places: after 2.5 m, or half a radian.
 constexpr double kEnoughPlaces = 10.0;
+/// Of the points of a LiDAR, so many must have planes to say anything; ...
+constexpr double kSayingSo = 0.02;
+/// ... and of these, this share of the reference's must lie on them. A LiDAR at the right place, or
+/// found up to 20 degrees off, has 0.97 or more; one that is not found has at most 0.65.
+constexpr double kAsReference = 0.8;
 /// Holds the pose where the points of a segment do not.
 constexpr double kPoseInformation = 1.0;
 
@@ -85,9 +91,9 @@ void RigCalibration::Begin(std::vector<SegmentCloud>* segments) {
   for (SegmentCloud& cloud : *segments) DropUnknown(&cloud);
 }
 
-bool RigCalibration::IsKnown(std::size_t lidar) const {
-  if (!is_learning_ || lidar == reference_) return true;
-  return lidar < lidars_.size() && lidars_[lidar].places >= kEnoughPlaces;
+RigEvidence RigCalibration::EvidenceFor(std::size_t lidar) const {
+  if (!is_learning_ || lidar == reference_) return RigEvidence::kConfirmed;
+  return lidar < lidars_.size() ? lidars_[lidar].evidence : RigEvidence::kNotYet;
 }
 
 void RigCalibration::Apply(SegmentCloud* cloud) const {
@@ -127,6 +133,7 @@ void RigCalibration::Learn(const Window& window) {
   if (!is_learning_ || !reference_ || lidars < 2 || !window.is_believed) return;
   Add(lidars);
   NotePlaces(window);
+  NoteAgreement(window);
 
   // [I v]: from a change of a LiDAR's place and clock to one of the body's pose.
   Eigen::Matrix<double, 6, kUnknowns> B;
@@ -170,6 +177,32 @@ void RigCalibration::NotePlaces(const Window& window) {
   for (std::size_t l = 0; l < lidars_.size(); ++l) {
     if (is_seen[l]) lidars_[l].places += PlacesPassed(window.T_world_begin, segment.T_world_end);
   }
+}
+
+/// How the points of the oldest segment lie on the map, until it has points of their LiDARs.
+void RigCalibration::NoteAgreement(const Window& window) {
+  const Segment& segment = window.segments.front();
+  const double kept = std::exp(-segment.Duration_s() / kMemory_s);
+  for (Lidar& lidar : lidars_) {
+    for (double* count : {&lidar.points, &lidar.with_plane, &lidar.on_plane}) *count *= kept;
+  }
+  for (const SegmentPoint& point : segment.cloud.registration_points) ++lidars_[point.lidar].points;
+  ForEachPoint(window, segment, 1, [&](const RegistrationPoint& point, bool is_on_plane) {
+    ++lidars_[point.lidar].with_plane;
+    if (is_on_plane) ++lidars_[point.lidar].on_plane;
+  });
+  for (Lidar& lidar : lidars_) {
+    if (lidar.evidence < RigEvidence::kNone) lidar.evidence = Judge(lidar);
+  }
+}
+
+RigEvidence RigCalibration::Judge(const Lidar& lidar) const {
+  if (lidar.places < kEnoughPlaces) return RigEvidence::kNotYet;
+  if (lidar.with_plane <= kSayingSo * lidar.points) return RigEvidence::kNone;
+  const Lidar& reference = lidars_[*reference_];
+  const bool agrees =
+      lidar.on_plane * reference.with_plane >= kAsReference * reference.on_plane * lidar.with_plane;
+  return agrees ? RigEvidence::kConfirmed : RigEvidence::kContradicted;
 }
 
 /// A Gauss-Newton step of all corrections.

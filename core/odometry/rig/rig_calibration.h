@@ -12,6 +12,14 @@
 
 namespace trajlo {
 
+/// What the map says about where a LiDAR is.
+enum class RigEvidence {
+  kContradicted,  ///< Its points lie beside the map.
+  kNotYet,        ///< It has not seen the map from enough places.
+  kNone,          ///< It sees nothing that the others saw.
+  kConfirmed,     ///< Also of the reference, and where nothing is to be learnt.
+};
+
 /// Where the LiDARs of a rig really are, and what their clocks really show, found while running.
 ///
 /// Poses that were calibrated, or read from a drawing, are off by a centimetre and a few tenths of
@@ -33,8 +41,10 @@ namespace trajlo {
 ///
 /// Map points of a LiDAR would prove any correction right, and points that see the same planes from
 /// the same place share their errors. So those of a LiDAR are registered from the beginning, but
-/// enter the map only when it has seen it from enough places. Where it sees nothing that others
-/// saw, there is no evidence, and it stays where it was said to be.
+/// enter the map only when it has seen it from enough places, and they lie on it nearly as those of
+/// the reference do. If they do not, it is somewhere else by more than registration can find.
+/// Where it sees nothing that others saw, there is no evidence, and it stays where it was said to
+/// be.
 class RigCalibration {
  public:
   /// Without `is_learning` nothing is corrected.
@@ -58,16 +68,23 @@ class RigCalibration {
   /// Those of the clocks, for Segmenter::CorrectClocks.
   std::vector<double> Clocks_s() const;
   /// Whether the points of a LiDAR enter the map.
-  bool IsKnown(std::size_t lidar) const;
+  bool IsKnown(std::size_t lidar) const { return EvidenceFor(lidar) >= RigEvidence::kNone; }
+  RigEvidence EvidenceFor(std::size_t lidar) const;
 
  private:
   struct Lidar {
     LidarCorrection correction;
     double places = 0.0;  ///< From how many it has seen the map.
+    /// Its points of late: all, those that have a plane, and those that lie on it.
+    double points = 0.0, with_plane = 0.0, on_plane = 0.0;
+    /// What the map said before it had points of this LiDAR.
+    RigEvidence evidence = RigEvidence::kNotYet;
   };
   void DropUnknown(SegmentCloud* cloud) const;
   void Add(std::size_t lidars);
   void NotePlaces(const Window& window);
+  void NoteAgreement(const Window& window);
+  RigEvidence Judge(const Lidar& lidar) const;
   void Update();
 
   bool is_learning_;

@@ -95,6 +95,10 @@ TEST(Odometry, WhatCallbacksThrowReachesTheCallerAndFinishSettlesTheRest) {
   for (const int threads : {1, 2}) {
     options.threads = threads;
     Odometry odometry(options);
+    int poses = 0;
+    odometry.OnPose([&](const ControlPose&, const Matrix6d&) {
+      if (++poses == 5) throw std::runtime_error("bad pose");
+    });
     int windows = 0;
     odometry.OnWindow([&](const WindowStatistics&) {
       if (++windows == 20) throw std::runtime_error("bad window");
@@ -110,10 +114,11 @@ TEST(Odometry, WhatCallbacksThrowReachesTheCallerAndFinishSettlesTheRest) {
         failures.emplace_back(error.what());
       }
     }
-    EXPECT_EQ(failures, (std::vector<std::string>{"bad window", "bad scan"}));
+    EXPECT_EQ(failures, (std::vector<std::string>{"bad pose", "bad window", "bad scan"}));
     const std::size_t settled = odometry.trajectory().poses().size();
     odometry.Finish();
     EXPECT_GT(odometry.trajectory().poses().size(), settled);
+    EXPECT_EQ(poses, static_cast<int>(odometry.trajectory().poses().size()));
     ExpectFinite(odometry.trajectory());
   }
 }

@@ -62,6 +62,18 @@ TEST(LossWatch, IsLostWhenHardlyAnyWindowSettlesThoughInliersAreMany) {
   }
 }
 
+/// Scans that are a second apart rarely settle, at the right place, too.
+TEST(LossWatch, AFewWindowsHaveNoShare) {
+  LossWatch watch;
+  int first_lost = -1;
+  for (int i = 0; i < 60 && first_lost < 0; ++i) {
+    WindowStatistics window = Settling(i, false);
+    window.end_ns = i * std::int64_t{1'000'000'000};
+    if (watch.Update(window)) first_lost = i;
+  }
+  EXPECT_EQ(first_lost, 20);
+}
+
 TEST(LossWatch, AsksForMoreWindowsThatSettleWherePosesHaveAFlag) {
   for (const unsigned flags :
        {0u, +kFlagNotConverged, +kFlagDegenerate, +kFlagGap, +kFlagFewInliers}) {

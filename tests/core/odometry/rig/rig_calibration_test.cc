@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/odometry/health/belief.h"
 #include "tests/support/random_poses.h"
@@ -280,6 +281,46 @@ TEST(RigCalibration, ABodyAtRestSeesFromOnePlaceOnly) {
     calibration.Learn(rig.Register(std::move(cloud), SE3(), 0.0));
   }
   EXPECT_FALSE(calibration.IsKnown(1));
+}
+
+/// What the map says after a rig of two was seen from 20 places; `change` does something to the
+/// window's points of LiDAR 1.
+RigEvidence EvidenceWhere(const std::function<void(std::vector<RegistrationPoint>*)>& change) {
+  Rig rig({LidarCorrection(), LidarCorrection()});
+  RigCalibration calibration(true);
+  std::vector<SegmentCloud> first = {rig.See(200, Step())};
+  calibration.Begin(&first);
+  for (int i = 0; i < 100; ++i) {
+    SegmentCloud cloud = rig.See(200, Step(i));
+    calibration.Apply(&cloud);
+    Window window = rig.Register(std::move(cloud), SE3(), 0.0);
+    std::vector<RegistrationPoint>& points = window.segments[0].points;
+    const auto second = std::stable_partition(points.begin(), points.end(),
+                                              [](const auto& point) { return point.lidar == 0; });
+    std::vector<RegistrationPoint> of_second(second, points.end());
+    points.erase(second, points.end());
+    change(&of_second);
+    points.insert(points.end(), of_second.begin(), of_second.end());
+    calibration.Learn(window);
+  }
+  EXPECT_EQ(calibration.EvidenceFor(0), RigEvidence::kConfirmed);
+  EXPECT_EQ(calibration.IsKnown(1), calibration.EvidenceFor(1) >= RigEvidence::kNone);
+  return calibration.EvidenceFor(1);
+}
+
+TEST(RigCalibration, ALidarWhosePointsLieBesideTheMapStaysOutOfIt) {
+  Random random(3);
+  const auto as_it_is = [](std::vector<RegistrationPoint>*) {};
+  const auto beside = [&](std::vector<RegistrationPoint>* points) {
+    for (RegistrationPoint& point : *points) point.offset_m += random.Uniform(-0.5, 0.5);
+  };
+  EXPECT_EQ(EvidenceWhere(as_it_is), RigEvidence::kConfirmed);
+  EXPECT_EQ(EvidenceWhere(beside), RigEvidence::kContradicted);
+}
+
+/// It looks elsewhere: nothing speaks against it, and the map grows with it.
+TEST(RigCalibration, ALidarThatSeesWhatNoOtherSawIsBelieved) {
+  EXPECT_EQ(EvidenceWhere([](auto* points) { points->clear(); }), RigEvidence::kNone);
 }
 
 /// While the reference is silent, the map would stand still.
