@@ -15,6 +15,9 @@ constexpr std::size_t kSamples = 1024;
 
 bool IsSane(std::int64_t t_ns) { return t_ns > -kLatest && t_ns < kLatest; }
 
+/// True for a point that is somewhere: neither at zero nor not finite.
+bool IsReturn(const LidarPoint& point) { return point.xyz_m.allFinite() && !point.xyz_m.isZero(); }
+
 bool IsStray(const ScanTimes& times, const LidarPoint& point) {
   return !IsSane(point.t_ns) || point.t_ns < times.center_ns - times.reach_ns ||
          point.t_ns > times.center_ns + times.reach_ns;
@@ -75,12 +78,17 @@ std::optional<ScanTimes> MeasureTimes(const LidarScan& scan, std::int64_t usual_
   return ScanTimes{first->t_ns, last->t_ns, 0, 0, 0};
 }
 
+// Samples are taken among the returns: where every second point is missing, those at even places
+// would be the same in all scans.
 std::uint64_t Fingerprint(const LidarScan& scan) {
   std::uint64_t hash = scan.points.size();
-  const std::size_t step = scan.points.size() / kSamples + 1;
-  for (std::size_t i = 0; i < scan.points.size(); i += step) {
+  const auto returns = std::count_if(scan.points.begin(), scan.points.end(), IsReturn);
+  const std::size_t step = static_cast<std::size_t>(returns) / kSamples + 1;
+  std::size_t place = 0;
+  for (const LidarPoint& point : scan.points) {
+    if (!IsReturn(point) || place++ % step != 0) continue;
     std::uint32_t bits[3];
-    std::memcpy(bits, scan.points[i].xyz_m.data(), sizeof(bits));
+    std::memcpy(bits, point.xyz_m.data(), sizeof(bits));
     for (const std::uint32_t word : bits)
       hash = (hash ^ word) * 0x100000001B3ULL;  // FNV-1a's prime
   }
@@ -88,9 +96,7 @@ std::uint64_t Fingerprint(const LidarScan& scan) {
 }
 
 bool HasReturn(const LidarScan& scan) {
-  return std::any_of(scan.points.begin(), scan.points.end(), [](const LidarPoint& point) {
-    return point.xyz_m.allFinite() && !point.xyz_m.isZero();
-  });
+  return std::any_of(scan.points.begin(), scan.points.end(), IsReturn);
 }
 
 void RemoveStrays(const ScanTimes& times, LidarScan* scan) {

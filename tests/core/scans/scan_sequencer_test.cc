@@ -130,6 +130,25 @@ TEST(ScanSequencer, ScansWithoutAnyReturnAreNotStuck) {
   EXPECT_EQ(Sequence(scans).report.stuck, 0);
 }
 
+TEST(ScanSequencer, ScansOfWhichEverySecondPointIsMissingAreNotStuck) {
+  std::vector<LidarScan> scans;
+  for (int i = 0; i < 20; ++i) {
+    LidarScan scan = MakeScan(i, kStart + i * kPeriod);
+    const std::vector<LidarPoint> points = scan.points;
+    // So many that a fingerprint is made of some of them.
+    for (int copy = 0; copy < 1600; ++copy) {
+      scan.points.insert(scan.points.end(), points.begin(), points.end());
+    }
+    for (std::size_t k = 0; k < scan.points.size(); k += 2) {
+      scan.points[k].xyz_m.setConstant(std::numeric_limits<float>::quiet_NaN());
+    }
+    scans.push_back(scan);
+  }
+  const Sequenced result = Sequence(scans);
+  EXPECT_EQ(result.report.stuck, 0);
+  EXPECT_THAT(result.scans, SizeIs(20));
+}
+
 TEST(ScanSequencer, TakesStraysOutOfAScan) {
   for (const std::int64_t wrong :
        {1500 * kMs, -1500 * kMs, 5 * kDay, -kStart, std::numeric_limits<std::int64_t>::max() / 2}) {
