@@ -164,10 +164,8 @@ void ScanSequencer::DoubtTheBegin() {
 
 void ScanSequencer::Release() {
   while (!queue_.empty() && queue_.front()->is_judged) {
-    Entry& front = *queue_.front();
-    RemoveStrays(front.held.times, &front.held.scan);
-    ShiftTimes(front.shift_ns, &front.held.scan);
-    Hand(front.held.scan, front.held.arrival);
+    // Taken out first: a scan whose receiver throws is not handed on, and moved, once more.
+    const std::unique_ptr<Entry> front = std::move(queue_.front());
     queue_.pop_front();
   }
 }

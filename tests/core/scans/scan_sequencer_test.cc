@@ -2,6 +2,8 @@
 // ScanSequencer in general: order, bounds, points, counts.
 #include <limits>
 #include <random>
+#include <stdexcept>
+#include <utility>
 
 #include "core/odometry/segments/segmenter.h"
 #include "tests/core/scans/sequence_scans.h"
@@ -147,6 +149,34 @@ TEST(ScanSequencer, ScansOfWhichEverySecondPointIsMissingAreNotStuck) {
   const Sequenced result = Sequence(scans);
   EXPECT_EQ(result.report.stuck, 0);
   EXPECT_THAT(result.scans, SizeIs(20));
+}
+
+TEST(ScanSequencer, AScanWhoseReceiverThrowsIsNotHandedOnAgain) {
+  std::vector<LidarScan> received;
+  bool throws = false;
+  ScanSequencer sequencer(0.5, [&](const LidarScan& scan) {
+    received.push_back(scan);
+    if (std::exchange(throws, false)) throw std::runtime_error("full");
+  });
+  std::vector<std::int64_t> stamps = Regular(40);
+  for (std::size_t i = 20; i < 40; ++i) stamps[i] += kHour;  // Moved back to go on.
+  int thrown = 0;
+  for (std::size_t i = 0; i < 40; ++i) {
+    throws = i == 30;
+    try {
+      sequencer.Add(MakeScan(static_cast<int>(i), stamps[i]));
+    } catch (const std::runtime_error&) {
+      ++thrown;
+    }
+  }
+  sequencer.Finish();
+  EXPECT_EQ(thrown, 1);
+  ASSERT_THAT(received, SizeIs(40));
+  for (int i = 0; i < 40; ++i) {
+    const LidarScan& scan = received[static_cast<std::size_t>(i)];
+    EXPECT_EQ(NumberOf(scan), i);
+    EXPECT_EQ(scan.stamp_ns, kStart + i * kPeriod);
+  }
 }
 
 TEST(ScanSequencer, TakesStraysOutOfAScan) {
