@@ -26,6 +26,13 @@ std::string Seconds(std::int64_t ns) {
   return text;
 }
 
+/// What clocks differ by is not known to more than a sweep.
+std::string Roughly(std::int64_t ns) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%+.1f s", 1e-9 * static_cast<double>(ns));
+  return text;
+}
+
 bool IsDropped(ScanFate fate) {
   return fate == ScanFate::kMisfit || fate == ScanFate::kRepeated || fate == ScanFate::kApart;
 }
@@ -167,6 +174,9 @@ void ScanSequencer::Release() {
     // Taken out first: a scan whose receiver throws is not handed on, and moved, once more.
     const std::unique_ptr<Entry> front = std::move(queue_.front());
     queue_.pop_front();
+    RemoveStrays(front->held.times, &front->held.scan);
+    ShiftTimes(front->shift_ns, &front->held.scan);
+    Hand(front->held.scan, front->held.arrival);
   }
 }
 
@@ -210,9 +220,9 @@ void ScanSequencer::Describe(std::size_t lidar) {
   const std::string first = LidarName(first_lidar_);
   std::string sentence = LidarName(lidar) + ": its times are " + how_far + " those of " + first;
   if (apart->never_together) sentence += ", which was silent by then";
-  sentence += "; its scans are left out. If the clocks differ, set input.clock_offset_s";
+  sentence += "; its scans are left out. If the clocks differ, change input.clock_offset_s";
   if (!apart->never_together) {
-    sentence += ", of this LiDAR to about " + Seconds(-apart->ahead_ns) +
+    sentence += " of this LiDAR by about " + Roughly(-apart->ahead_ns) +
                 "; if its messages only come late, raise expert.segmenter.max_lag_s";
   }
   Remark(sentence);
