@@ -31,8 +31,7 @@ std::size_t FindTopic(const RawMessageReader& reader, const std::string& name,
 }  // namespace
 
 ExtractedPoses ExtractPoses(const std::filesystem::path& recording, const std::string& topic) {
-  std::vector<std::filesystem::path> parts = Ros1BagsOf(recording);
-  if (parts.empty()) parts.push_back(recording);
+  const std::vector<std::filesystem::path> parts = BagsOf(recording);
   ExtractedPoses extracted;
   std::string others;
   bool found = false;

@@ -189,8 +189,7 @@ MessageCopyResult CopyBags(const std::vector<std::filesystem::path>& bags,
 
 MessageCopyResult CopyMessages(const std::filesystem::path& path, const MessageCopyOptions& options,
                                BagWriter* writer) {
-  std::vector<std::filesystem::path> parts = Ros1BagsOf(path);
-  if (parts.empty()) parts.push_back(path);
+  const std::vector<std::filesystem::path> parts = BagsOf(path);
   std::vector<std::unique_ptr<RawMessageReader>> readers;
   for (const auto& part : parts) readers.push_back(OpenMessages(part, kAllCores));
   NamedTypes topics = TopicsOf(readers);

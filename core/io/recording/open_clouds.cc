@@ -12,6 +12,7 @@
 #include "core/io/random_access_file.h"
 #include "core/io/recording/chained_clouds.h"
 #include "core/io/ros1/ros1_bag_reader.h"
+#include "core/io/ros2/rosbag2_metadata.h"
 #include "core/io/ros2/rosbag2_reader.h"
 #include "core/io/scan_listing.h"
 #include "core/io/velodyne_payloads.h"
@@ -21,14 +22,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The ROS 1 bags of a folder, in the natural order of their names.
-std::vector<fs::path> Ros1Bags(const fs::path& folder) {
+bool IsNamedAsRos1(const fs::path& path) {
+  return path.extension() == ".bag" || path.extension() == ".active";
+}
+
+/// The bags of a folder, in the natural order of their names; empty if none is of ROS 1.
+std::vector<fs::path> BagsWithRos1(const fs::path& folder) {
   std::vector<fs::path> bags;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const fs::path extension = entry.path().extension();
-    if (extension == ".bag" || extension == ".active") bags.push_back(entry.path());
+    if (IsNamedAsRos1(entry) || IsRosbag2File(entry)) bags.push_back(entry);
   }
+  if (std::none_of(bags.begin(), bags.end(), IsNamedAsRos1)) return {};
   SortNaturally(&bags);
   return bags;
 }
@@ -100,7 +105,7 @@ std::unique_ptr<CloudMessageReader> OpenFile(const fs::path& path, const CloudOp
 bool HoldsClouds(const fs::path& path) {
   std::error_code error;
   if (fs::is_regular_file(path, error)) return true;
-  return fs::is_directory(path, error) && (IsRos2Bag(path) || !Ros1Bags(path).empty());
+  return fs::is_directory(path, error) && (IsRos2Bag(path) || !BagsWithRos1(path).empty());
 }
 
 bool HoldsPackets(const fs::path& path) {
@@ -111,19 +116,31 @@ bool HoldsPackets(const fs::path& path) {
 std::unique_ptr<CloudMessageReader> OpenClouds(const fs::path& path, const CloudOptions& options) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return OpenFile(path, options);
-  const std::vector<fs::path> bags = Ros1Bags(path);
+  const std::vector<fs::path> bags = BagsWithRos1(path);
   if (bags.empty()) return OpenRos2(path);
   std::vector<std::unique_ptr<CloudMessageReader>> parts;
-  for (const fs::path& bag : bags) parts.push_back(OpenRos1(bag, options));
+  for (const fs::path& bag : bags) {
+    parts.push_back(IsNamedAsRos1(bag) ? OpenRos1(bag, options) : OpenRos2(bag));
+  }
   if (parts.size() == 1) return std::move(parts.front());
   return std::make_unique<ChainedClouds>(std::move(parts));
 }
 
 std::vector<fs::path> Ros1BagsOf(const fs::path& path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) return Ros1Bags(path);
-  return BeginsWith(FirstBytes(path), "#ROSBAG V") ? std::vector<fs::path>{path}
-                                                   : std::vector<fs::path>();
+  std::vector<fs::path> bags;
+  if (fs::is_directory(path, error)) {
+    bags = BagsWithRos1(path);
+    if (!std::all_of(bags.begin(), bags.end(), IsNamedAsRos1)) bags.clear();
+  } else if (BeginsWith(FirstBytes(path), "#ROSBAG V")) {
+    bags.push_back(path);
+  }
+  return bags;
+}
+
+std::vector<fs::path> BagsOf(const fs::path& path) {
+  std::vector<fs::path> bags = BagsWithRos1(path);
+  return bags.empty() ? std::vector<fs::path>{path} : bags;
 }
 
 bool HoldsMessages(const fs::path& path) {

@@ -31,8 +31,12 @@ std::unique_ptr<CloudMessageReader> OpenClouds(const std::filesystem::path& path
                                                const CloudOptions& options = {});
 
 /// The ROS 1 bags that `path` names: itself, or those in the folder, in the natural order of their
-/// names. Empty if it names none.
+/// names. Empty if it names none, or bags of ROS 2 as well.
 std::vector<std::filesystem::path> Ros1BagsOf(const std::filesystem::path& path);
+
+/// What OpenMessages() takes one after the other to read all of `path`: itself, but of a folder
+/// that holds ROS 1 bags each bag of either kind, in the natural order of their names.
+std::vector<std::filesystem::path> BagsOf(const std::filesystem::path& path);
 
 /// True for what OpenMessages() opens, and for a folder of ROS 1 bags.
 bool HoldsMessages(const std::filesystem::path& path);

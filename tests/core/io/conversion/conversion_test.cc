@@ -5,9 +5,11 @@
 
 #include "core/io/conversion/extract_poses.h"
 #include "core/io/conversion/message_copy.h"
+#include "core/io/conversion/open_bag.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/errors.h"
+#include "core/io/recording/open_clouds.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/ros1/ros1_bag_reader.h"
 #include "tests/support/temp_folder.h"
@@ -254,6 +256,33 @@ TEST(ExtractPoses, ReadsAFolderOfBagsInTheirOrder) {
   WriteBag(folder / "part_10.bag", CloudLayout::kOuster, false);
   WriteBag(folder / "part_9.bag", CloudLayout::kOuster, false);
   EXPECT_EQ(ExtractPoses(folder.path(), "/truth").poses.size(), 16u);
+}
+
+TEST(BagsOf, AFolderOfBothKindsIsReadWholeInTheOrderOfTheNames) {
+  const TempFolder folder;
+  WriteBag(folder / "whole.bag", CloudLayout::kOuster, false);
+  const auto copy = [&](const std::filesystem::path& from, const std::string& to,
+                        std::int64_t start_ns, std::int64_t duration_ns) {
+    MessageCopyOptions part;
+    part.start_ns = start_ns;
+    part.duration_ns = duration_ns;
+    const auto bag = OpenBag(folder / to);
+    CopyMessages(from, part, bag.get());
+    bag->Close();
+  };
+  std::filesystem::create_directories(folder / "parts");
+  copy(folder / "whole.bag", "parts/a.bag", 0, 250'000'000);
+  copy(folder / "whole.bag", "parts/b.mcap", 250'000'000, 200'000'000);
+  copy(folder / "whole.bag", "parts/c.bag", 450'000'000, 0);
+  EXPECT_THAT(Ros1BagsOf(folder / "parts"), ::testing::IsEmpty());
+  EXPECT_EQ(ExtractPoses(folder / "parts", "/truth").poses.size(), 8u);
+  copy(folder / "parts", "again.mcap", 0, 0);
+  for (const char* name : {"parts", "again.mcap"}) {
+    const std::vector<LidarScan> scans = ReadBack(folder / name);
+    ASSERT_EQ(scans.size(), 8u) << name;
+    for (int i = 0; i < 8; ++i)
+      ExpectSamePoints(scans[static_cast<std::size_t>(i)], Scan(i, false));
+  }
 }
 
 TEST(TopicOf, IsAsPublicRecordingsNameIt) {
