@@ -53,6 +53,34 @@ bool HasRings(const FileBytes& bytes, std::size_t numbers, std::size_t column = 
   return rings > zeros && 100 * (checked - rings) <= checked;
 }
 
+/// True if of the numbers that should be intensities many are no whole ones below zero, as
+/// coordinates are.
+bool HasCoordinatesAsIntensity(const FileBytes& bytes) {
+  constexpr std::size_t kRow = 4 * sizeof(float);
+  const std::size_t checked = std::min<std::size_t>(bytes.size() / kRow, 10000);
+  std::size_t negative = 0;
+  for (std::size_t i = 0; i < checked; ++i) {
+    float value = 0.0F;
+    std::memcpy(&value, bytes.data() + i * kRow + 3 * sizeof(float), sizeof(value));
+    negative += value < 0.0F && value > -1e6F && value != std::floor(value) ? 1 : 0;
+  }
+  return 20 * negative > checked;
+}
+
+/// "6", or "3 or 5", if the file seems to hold so many numbers a point; else empty.
+std::string OtherWidth(const FileBytes& bytes, bool has_rings) {
+  const auto fits = [&](std::size_t width) { return bytes.size() % (width * sizeof(float)) == 0; };
+  for (const std::size_t width : {6, 7, 8}) {
+    // If these are two points of four numbers, columns 4 to 6 are coordinates.
+    for (std::size_t column = 4; column < std::min<std::size_t>(width, 7); ++column) {
+      if (fits(width) && HasRings(bytes, width, column)) return std::to_string(width);
+    }
+  }
+  if (has_rings || !HasCoordinatesAsIntensity(bytes)) return "";
+  if (fits(3) && fits(5)) return "3 or 5";
+  return fits(3) ? "3" : fits(5) ? "5" : "";
+}
+
 /// Float32 without a header: KITTI's x y z intensity, or with a ring behind them.
 PointTable ReadBin(const std::filesystem::path& path, FileBytes bytes) {
   if (BeginsAsVelodynePayloads(bytes.view())) {
@@ -61,18 +89,6 @@ PointTable ReadBin(const std::filesystem::path& path, FileBytes bytes) {
   }
   std::vector<const char*> names = {"x", "y", "z", "intensity"};
   if (HasRings(bytes, 5)) names.push_back("ring");
-  for (const std::size_t more : {6, 7, 8}) {
-    if (bytes.size() % (more * sizeof(float)) != 0) continue;
-    // If these are two points of four numbers, columns 4 to 6 are coordinates.
-    bool has_rings = false;
-    for (std::size_t column = 4; column < std::min<std::size_t>(more, 7); ++column) {
-      has_rings = has_rings || HasRings(bytes, more, column);
-    }
-    if (!has_rings) continue;
-    throw InputError(path, "this seems to hold " + std::to_string(more) + " numbers a point",
-                     "A .bin scan holds float32 x y z intensity, or x y z intensity ring. Write "
-                     "such a file, or a .pcd with the names of its fields.");
-  }
   const std::size_t row_bytes = names.size() * sizeof(float);
   PointTable table;
   table.count = bytes.size() / row_bytes;
@@ -88,7 +104,11 @@ PointTable ReadBin(const std::filesystem::path& path, FileBytes bytes) {
   }
   table.bytes = std::move(bytes);
   CheckPlausible(path, table);
-  return table;
+  const std::string width = OtherWidth(table.bytes, names.size() == 5);
+  if (width.empty()) return table;
+  throw InputError(path, "this seems to hold " + width + " numbers a point",
+                   "A .bin scan holds float32 x y z intensity, or x y z intensity ring. Write "
+                   "such a file, or a .pcd with the names of its fields.");
 }
 
 }  // namespace

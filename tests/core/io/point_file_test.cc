@@ -193,9 +193,31 @@ TEST(PointFile, ABinWithFiveNumbersAPointIsToldByItsRings) {
   std::string spoilt = bytes;
   spoilt.replace(20 * 7 + 16, sizeof(nan), reinterpret_cast<const char*>(&nan), sizeof(nan));
   EXPECT_EQ(ReadPointFile(folder.Write("nan.bin", spoilt)).FieldNames(), "x y z intensity ring");
-  // The same numbers, but no rings: five is not certain, and four leave no rest here.
-  for (std::size_t i = 0; i < 320; ++i) bytes[20 * i + 16] = '\x11';
-  EXPECT_EQ(ReadPointFile(folder.Write("b.bin", bytes)).FieldNames(), "x y z intensity");
+}
+
+std::string Refusal(const std::filesystem::path& file) {
+  try {
+    return "read as " + ReadPointFile(file).FieldNames();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(PointFile, ABinWhoseIntensitiesWouldBeCoordinatesIsRefused) {
+  const TempFolder folder;
+  const std::string five = Bin([](int i) { return std::vector{Time(i)}; });
+  EXPECT_THAT(Refusal(folder.Write("xyzit.bin", five)), HasSubstr(" 5 numbers a point"));
+  std::string three;
+  for (std::size_t i = 0; i < 319; ++i) three += five.substr(20 * i, 12);
+  EXPECT_THAT(Refusal(folder.Write("xyz.bin", three)), HasSubstr(" 3 numbers a point"));
+  // Four that fill rows of three and five, too; -1 where the intensity is unknown.
+  std::string four;
+  const float unknown = -1.0F;
+  for (std::size_t i = 0; i < 300; ++i) {
+    four += five.substr(20 * i, 12);
+    four.append(reinterpret_cast<const char*>(&unknown), sizeof(unknown));
+  }
+  EXPECT_EQ(Refusal(folder.Write("xyzi.bin", four)), "read as x y z intensity");
 }
 
 TEST(PointFile, ABinWithMoreNumbersAPointIsRefused) {
