@@ -56,7 +56,8 @@ void JudgeOutcome(bool interrupted, RunSummary* s) {
             "happened)",
         s);
   } else if (const std::string missing = s->MissingInput(); !missing.empty()) {
-    End(ExitCode::kPartialInput, "partial_input", missing + "; the warnings say more", s);
+    const char* more = s->warnings.empty() ? "" : "; the warnings say more";
+    End(ExitCode::kPartialInput, "partial_input", missing + more, s);
   } else {
     End(ExitCode::kOk, "ok", "", s);
   }

@@ -58,7 +58,7 @@ std::string RunSummary::MissingInput() const {
                     " % of the points were dropped because of their times (" +
                     std::to_string(points.too_late) + " too late, " +
                     std::to_string(points.wrong_time) + " of wrong stamps, " +
-                    std::to_string(read.points_without_time) + " impossible)");
+                    std::to_string(read.points_without_time) + " impossible, as NaN is)");
   }
   const auto scans = static_cast<double>(times.scans);
   const std::int64_t assumed = times.assumed + times.retimed + times.moved;

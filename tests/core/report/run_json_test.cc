@@ -84,7 +84,7 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   EXPECT_EQ(
       s.MissingInput(),
       "5 % of the points were dropped because of their times (20 too late, 20 of wrong stamps, "
-      "11 impossible)");
+      "11 impossible, as NaN is)");
   s.points = {};
   s.times.assumed = 4;
   EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are not those of their stamps");
