@@ -192,9 +192,18 @@ class Surveyor {
   }
 
   void FinishOuster(Study* study) {
-    study->stream.sweeps = study->counter->counts().sweeps;
+    PacketStream& stream = study->stream;
+    const OusterMetadata& metadata = set_.metadata[stream.metadata];
+    if (stream.serial != 0 && metadata.serial != 0 && stream.serial != metadata.serial) {
+      stream.problem = "packets of the Ouster sensor " + std::to_string(stream.serial) + ", but " +
+                       metadata.path.string() + " is of the sensor " +
+                       std::to_string(metadata.serial) +
+                       ": points would be in wrong places; give the metadata file of this sensor";
+      return;
+    }
+    stream.sweeps = study->counter->counts().sweeps;
     if (study->capture_offsets_ns.empty()) return;
-    study->stream.capture_offset_ns = UpperMedian(study->capture_offsets_ns);
+    stream.capture_offset_ns = UpperMedian(study->capture_offsets_ns);
   }
 
   std::string MissingMetadata() const {

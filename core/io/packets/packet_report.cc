@@ -39,11 +39,6 @@ void PacketCloudReader::ReportCapture() {
       warn(name + ": " +
            CountOf(stream.foreign, "datagram is not a LiDAR packet and is ignored",
                    "datagrams are not LiDAR packets and are ignored"));
-    } else if (stream.kind == PacketStream::Kind::kOuster && stream.serial != 0) {
-      const OusterMetadata& metadata = survey_.metadata[stream.metadata];
-      if (metadata.serial == 0 || metadata.serial == stream.serial) continue;
-      warn(name + ": the packets are of the sensor " + std::to_string(stream.serial) + ", but " +
-           metadata.path.string() + " is of " + std::to_string(metadata.serial));
     }
   }
 }

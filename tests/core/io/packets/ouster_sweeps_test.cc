@@ -198,6 +198,15 @@ TEST(OusterMetadata, OfSeveralSensorsIsToldApartBySerialNumber) {
   EXPECT_TRUE(all.report.warnings.empty()) << all.Warnings();
 }
 
+TEST(OusterMetadata, OfAnotherSensorIsRefused) {
+  const TempFolder folder;
+  json other = json::parse(Metadata());
+  other["prod_sn"] = "42";
+  folder.Write("run.json", other.dump());
+  EXPECT_THAT(WhatReadingThrows(folder.Write("run.pcap", Frames({1}).bytes())),
+              HasSubstr("run.json is of the sensor 42"));
+}
+
 TEST(OusterMetadata, ThatCannotBeUsedIsAnErrorThatNamesTheEntry) {
   const TempFolder folder;
   const auto capture = folder.Write("run.pcap", Frames({1}).bytes());
