@@ -6,6 +6,7 @@
 
 #include "core/io/errors.h"
 #include "core/io/format_text.h"
+#include "core/io/stamp_end.h"
 #include "core/scans/median.h"
 
 namespace trajlo {
@@ -112,6 +113,16 @@ double RangeOfMost(std::vector<double> values, std::size_t left_out) {
   return *most - *least;
 }
 
+/// Where absolute times lie that are of the stamps' clock; with a doubt if that is several sweeps
+/// away.
+void DescribeDistance(double stamp_after_first_s, double stamp_after_last_s,
+                      TimeConvention* found) {
+  const std::string where = "the stamp lies " + BeforeOrAfter(stamp_after_first_s) +
+                            " the first point and " + BeforeOrAfter(stamp_after_last_s) +
+                            " the last";
+  found->evidence += "; the times are absolute, " + where;
+}
+
 /// Settles which clock absolute times belong to, by their distance from the stamps.
 void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeConvention* found) {
   const auto unit_ns = static_cast<double>(NanosecondsPer(found->unit));
@@ -152,9 +163,7 @@ void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeCon
     if (found->stamp_at == StampAt::kAuto) {
       found->stamp_at = at_end ? StampAt::kEnd : StampAt::kStart;
     }
-    found->evidence += "; the times are absolute, the stamp comes " +
-                       Number(after_first_ns * 1e-9) + " s after the first point and " +
-                       Number(after_last_ns * 1e-9) + " s after the last";
+    DescribeDistance(1e-9 * after_first_ns, 1e-9 * after_last_ns, found);
     return;
   }
   const bool stamp_is_last = found->stamp_at == StampAt::kEnd;
@@ -164,79 +173,6 @@ void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeCon
                      Number(static_cast<double>(found->clock_offset_ns) * 1e-9) +
                      " s are added so that the stamp marks the " +
                      (stamp_is_last ? "last" : "first") + " point";
-}
-
-/// Sweeps that are cut short (a LiDAR that starts, a driver that waits) join their neighbours by
-/// one convention only: the next stamp comes as soon after a stamp at the start, the one before is
-/// as near to a stamp at the end.
-StampAt JudgeByCutSweeps(const TimeEvidence& evidence, const Summary& summary, double unit_s) {
-  constexpr double kSame = 0.03, kCut = 0.1;  // Of a sweep.
-  const std::vector<TimeSample>& samples = evidence.samples;
-  const auto step_matches = [&](std::size_t k, double sweep_s) {  // From stamp k to stamp k + 1.
-    if (k + 1 >= samples.size() || !samples[k].stamp_ns || !samples[k + 1].stamp_ns) return false;
-    const double step_s =
-        1e-9 * static_cast<double>(*samples[k + 1].stamp_ns - *samples[k].stamp_ns);
-    return std::abs(step_s - sweep_s) < kSame * summary.span * unit_s;
-  };
-  int starts = 0, ends = 0;
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const double sweep_s = samples[k].last * unit_s;
-    if (std::abs(sweep_s - summary.last * unit_s) < kCut * summary.span * unit_s) continue;
-    const bool start = step_matches(k, sweep_s);
-    const bool end = k > 0 && step_matches(k - 1, sweep_s);
-    starts += start && !end ? 1 : 0;
-    ends += end && !start ? 1 : 0;
-  }
-  if ((starts > 0) == (ends > 0)) return StampAt::kAuto;
-  return starts > 0 ? StampAt::kStart : StampAt::kEnd;
-}
-
-void Doubt(const std::string& why, TimeConvention* found) {
-  found->doubt = "stamps are taken for the start of the sweep, but " + why +
-                 "; if they mark its end, all times are " +
-                 Number(1e-9 * static_cast<double>(found->sweep_ns)) +
-                 " s late: check input.stamp_at";
-}
-
-/// Which end of the sweep the stamps mark, by the time of recording: the last point was measured
-/// before, so a message recorded less than a sweep after its stamp has the stamp of its end.
-StampAt JudgeByRecording(const TimeEvidence& evidence, TimeConvention* found) {
-  constexpr double kCopy_s = 20e-6;  // No recorder is so fast.
-  std::vector<double> delays_s;
-  for (const TimeSample& sample : evidence.samples) {
-    if (!sample.stamp_ns || !sample.recorded_ns) continue;
-    delays_s.push_back(1e-9 * static_cast<double>(*sample.recorded_ns - *sample.stamp_ns));
-  }
-  if (delays_s.empty()) return StampAt::kAuto;
-  const double delay_s = UpperMedian(delays_s);
-  const double sweep_s = 1e-9 * static_cast<double>(found->sweep_ns);
-  if (std::abs(delay_s) < kCopy_s) {
-    Doubt("the times of recording are copies of them, and nothing else tells", found);
-    return StampAt::kAuto;
-  }
-  found->evidence += "; messages were recorded " + Number(delay_s) + " s after their stamp";
-  if (delay_s < -0.1 * sweep_s || delay_s > 10.0 * sweep_s) {
-    Doubt(
-        "the recorder's clock is another, " + Number(delay_s) + " s ahead, and nothing else tells",
-        found);
-    found->evidence += ", so the clocks differ";
-    return StampAt::kAuto;
-  }
-  return delay_s < 0.8 * sweep_s ? StampAt::kEnd : StampAt::kStart;
-}
-
-StampAt JudgeStamp(const TimeEvidence& evidence, const Summary& summary, TimeConvention* found) {
-  const double unit_s = 1e-9 * static_cast<double>(NanosecondsPer(found->unit));
-  const StampAt by_sweeps = JudgeByCutSweeps(evidence, summary, unit_s);
-  if (by_sweeps != StampAt::kAuto) {
-    found->evidence += "; so sweeps that are cut short join their neighbours";
-    return by_sweeps;
-  }
-  const StampAt by_recording = JudgeByRecording(evidence, found);
-  if (by_recording != StampAt::kAuto) return by_recording;
-  found->evidence += "; the stamp is assumed to mark the start (input.stamp_at)";
-  found->stamp_at_is_assumed = true;
-  return StampAt::kStart;
 }
 
 std::string OriginText(const TimeConvention& found) {
@@ -303,7 +239,7 @@ TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOpti
     found.stamp_at = StampAt::kStart;
     if (found.origin == TimeOrigin::kSweepEnd) found.stamp_at = StampAt::kEnd;
     if (found.origin == TimeOrigin::kSweepStart) {
-      found.stamp_at = JudgeStamp(evidence, summary, &found);
+      found.stamp_at = JudgeStampEnd(evidence, summary.last, summary.span, &found);
     }
   }
   if (options.unit != TimeUnit::kAuto) {

@@ -70,7 +70,8 @@ std::vector<std::string> ChosenInputs(const std::vector<std::string>& inputs,
   if (chosen.empty() && inputs.size() == options.topics.size()) return inputs;
   std::string folders;
   for (const std::string& input : inputs) folders += "\n    " + FolderName(input);
-  throw InputError(fs::path(inputs.front()).parent_path(),
+  const fs::path first = inputs.front();
+  throw InputError(inputs.size() > 1 && first.has_parent_path() ? first.parent_path() : first,
                    "folders of scans have no topics; input.topics can name these:" + folders,
                    "Leave input.topics empty to read all.");
 }

@@ -227,8 +227,8 @@ TEST(TimeConvention, TimesOfRecordingThatCopyTheStampsProveNothing) {
     }
     const auto found = DeduceTimeConvention(evidence, {});
     EXPECT_EQ(found.stamp_at, StampAt::kStart);
-    EXPECT_THAT(found.doubt,
-                AllOf(HasSubstr("copies"), HasSubstr("0.1 s late"), HasSubstr("input.stamp_at")));
+    EXPECT_THAT(found.doubt, AllOf(HasSubstr("copies"), HasSubstr("0.1 s too late"),
+                                   HasSubstr("input.stamp_at=end")));
     TimeOptions told;
     told.stamp_at = StampAt::kEnd;
     EXPECT_EQ(DeduceTimeConvention(evidence, told).doubt, "");
@@ -242,7 +242,23 @@ TEST(TimeConvention, ARecorderWithAnotherClockLeavesADoubt) {
     const auto found = DeduceTimeConvention(evidence, {});
     EXPECT_EQ(found.stamp_at, StampAt::kStart);
     EXPECT_THAT(found.doubt, HasSubstr("input.stamp_at"));
+    const bool is_behind = delay_ns < 0;
+    EXPECT_THAT(found.doubt, HasSubstr(is_behind ? "it is 3 s behind" : "it is 8.64e+04 s ahead"));
+    EXPECT_THAT(found.evidence, HasSubstr(is_behind ? "recorded 3 s before their stamp"
+                                                    : "recorded 8.64e+04 s after their stamp"));
   }
+}
+
+TEST(TimeConvention, StampsThatDoNotMoveTellNoDelay) {
+  TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
+  for (TimeSample& sample : evidence.samples) {
+    sample.recorded_ns = *sample.stamp_ns + 2'000'000;
+    sample.stamp_ns = evidence.samples.front().stamp_ns;
+  }
+  const auto found = DeduceTimeConvention(evidence, {});
+  EXPECT_EQ(found.stamp_at, StampAt::kStart);
+  EXPECT_THAT(found.evidence,
+              AllOf(HasSubstr("the stamps do not move"), Not(HasSubstr("recorded"))));
 }
 
 TEST(TimeConvention, ADelayThatIsRealLeavesNoDoubt) {

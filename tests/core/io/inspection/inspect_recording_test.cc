@@ -54,7 +54,7 @@ TEST(InspectClouds, TellsStampsAtTheEndByTheTimeOfRecording) {
 
 TEST(InspectClouds, FindsThatNothingTellsWhichEndStampsMark) {
   const RecordingInspection found = Inspect({"/cloud"}, RegularMessages(8, 0));
-  EXPECT_THAT(FindingsOf(found.clouds[0]), Contains(HasSubstr("check input.stamp_at")));
+  EXPECT_THAT(FindingsOf(found.clouds[0]), Contains(HasSubstr("set input.stamp_at=end")));
 }
 
 TEST(InspectClouds, GivesThePhaseOfFurtherLidars) {

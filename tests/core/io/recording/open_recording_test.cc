@@ -106,6 +106,13 @@ TEST(ChosenInputs, TopicsAreNamesOfFoldersWhereThereIsNoBag) {
   EXPECT_THAT(ChosenInputs({a, b}, options), ElementsAre(a, b));
   options.topics = {"/os1_cloud_node1/points"};
   EXPECT_THROW(OpenRecording({a, b}, options), InputError);
+  options.topics = {"/os1_cloud_node1/points", "/os1_cloud_node2/points"};
+  try {
+    ChosenInputs({"alone"}, options);
+    FAIL() << "two topics of one folder";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("alone: folders of scans have no topics"));
+  }
   options.topics = {"lidar1", "lidar2"};
   EXPECT_THROW(ChosenInputs({a, b}, options), InputError);
 }
