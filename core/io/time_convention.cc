@@ -117,10 +117,16 @@ double RangeOfMost(std::vector<double> values, std::size_t left_out) {
 /// away.
 void DescribeDistance(double stamp_after_first_s, double stamp_after_last_s,
                       TimeConvention* found) {
+  constexpr double kFewSweeps = 3.0;
   const std::string where = "the stamp lies " + BeforeOrAfter(stamp_after_first_s) +
                             " the first point and " + BeforeOrAfter(stamp_after_last_s) +
                             " the last";
   found->evidence += "; the times are absolute, " + where;
+  const double nearest_s = std::min(std::abs(stamp_after_first_s), std::abs(stamp_after_last_s));
+  if (nearest_s < kFewSweeps * 1e-9 * static_cast<double>(found->sweep_ns)) return;
+  found->doubt = where +
+                 ", more than a few sweeps can explain; the result has the times of the points "
+                 "(input.clock_offset_s moves them)";
 }
 
 /// Settles which clock absolute times belong to, by their distance from the stamps.

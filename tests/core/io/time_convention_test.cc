@@ -261,6 +261,17 @@ TEST(TimeConvention, StampsThatDoNotMoveTellNoDelay) {
               AllOf(HasSubstr("the stamps do not move"), Not(HasSubstr("recorded"))));
 }
 
+TEST(TimeConvention, AbsoluteTimesThatLieSweepsBeforeTheStampsLeaveADoubt) {
+  const auto before = [](double by_s) {
+    return DeduceTimeConvention(FiveScans(1, kEpoch - by_s, kEpoch - by_s + 0.0999, 0.1, true), {});
+  };
+  EXPECT_EQ(before(0.15).doubt, "");
+  EXPECT_THAT(before(0.15).evidence,
+              HasSubstr("the stamp lies 0.15 s after the first point and 0.0501 s after the last"));
+  EXPECT_THAT(before(1.0).doubt,
+              AllOf(HasSubstr("1 s after the first point"), HasSubstr("input.clock_offset_s")));
+}
+
 TEST(TimeConvention, ADelayThatIsRealLeavesNoDoubt) {
   for (const double delay_s : {0.0002, 0.002, 0.03, 0.1, 0.13}) {
     TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
