@@ -28,6 +28,8 @@ ScanFolder::ScanFolder(const std::filesystem::path& path, const ScanFolderOption
   recorded_ns_ = FindRecordTimes(listing_);
   report_.scans_listed = listing_.files.size();
   report_.warnings = stamps_.warnings;
+  const std::string doubt = DoubtOfStampUnit(TypicalPeriod(stamps_.t_ns));
+  if (!doubt.empty()) report_.warnings.push_back(stamps_.source + ": " + doubt);
   Probe();
   if (stamps_.t_ns.empty() && !convention_.IsAbsolute()) SetRegularStamps();
   if (!has_assumed_stamps_ && options_.scan_period_s != ScanFolderOptions().scan_period_s) {

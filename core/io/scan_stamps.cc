@@ -243,4 +243,12 @@ double TypicalPeriod(const std::vector<std::int64_t>& t_ns) {
   return 1e-9 * static_cast<double>(LowerMedian(std::move(steps)));
 }
 
+std::string DoubtOfStampUnit(double period_s) {
+  constexpr double kRare_s = 20.0;  // In ms, a sweep of 0.02 s.
+  if (period_s < kRare_s) return "";
+  return FormatText("stamps are %.6g s apart: they may be in %s", period_s,
+                    period_s < 1000.0 * kRare_s ? "ms" : "us") +
+         ", and must then be written in s";
+}
+
 }  // namespace trajlo

@@ -40,4 +40,7 @@ std::vector<std::int64_t> FindRecordTimes(const ScanListing& listing);
 /// The median of the steps between stamps that are positive, s; 0 if there are none.
 double TypicalPeriod(const std::vector<std::int64_t>& t_ns);
 
+/// What to think of stamps in s that are so far apart that they may be in ms or us; else empty.
+std::string DoubtOfStampUnit(double period_s);
+
 }  // namespace trajlo

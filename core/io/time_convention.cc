@@ -6,6 +6,7 @@
 
 #include "core/io/errors.h"
 #include "core/io/format_text.h"
+#include "core/io/scan_stamps.h"
 #include "core/io/stamp_end.h"
 #include "core/scans/median.h"
 
@@ -67,6 +68,13 @@ TimeUnit DeduceUnit(const TimeEvidence& evidence, const Summary& summary) {
     const double span_s = summary.span * 1e-9 * static_cast<double>(NanosecondsPer(unit));
     if (span_s >= shortest_s && span_s <= longest_s) return unit;
     readings += (readings.empty() ? "" : ", ") + Number(span_s) + " s if in " + NameOf(unit);
+  }
+  const std::string doubt = DoubtOfStampUnit(evidence.period_s);
+  if (!doubt.empty()) {
+    throw InputError(evidence.path,
+                     doubt + " (field '" + evidence.field + "' runs from " + Number(summary.first) +
+                         " to " + Number(summary.last) + " in a scan)",
+                     "Write the stamps in s; or, if they are right, set input.time_unit.");
   }
   throw InputError(evidence.path,
                    "ambiguous point times: " + Describe(evidence, summary) +

@@ -79,10 +79,11 @@ std::string RunSummary::MissingInput() const {
                     " scans may be out of order, by what they show");
   }
   if (static_cast<double>(times.before_first_pose) > kSizeableShare * scans) {
-    parts.push_back(
-        "the first " + std::to_string(times.before_first_pose) + " of " +
-        std::to_string(times.scans) +
-        " scans show nothing, or too little, of the world: the trajectory begins after them");
+    parts.push_back("the first " + std::to_string(times.before_first_pose) + " of " +
+                    std::to_string(times.scans) +
+                    " scans show nothing, or too little, of the world" +
+                    (times.Dropped() > 0 ? ", or were dropped for their stamps" : "") +
+                    ": the trajectory begins after them");
   }
   if (static_cast<double>(times.Unseen()) > kSizeableShare * scans) {
     parts.push_back("the last " + std::to_string(times.Unseen()) + " of " +

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/io/format_text.h"
+#include "core/io/scan_stamps.h"
 #include "core/io/stamp_text.h"
 
 namespace trajlo {
@@ -18,6 +19,8 @@ constexpr std::size_t kFewReturns = 500;
 void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings) {
   if (!cloud.time_problem.empty()) {
     findings->push_back("trajlo_run will refuse: " + cloud.time_problem);
+  } else if (const auto doubt = DoubtOfStampUnit(cloud.stamps.period_s); !doubt.empty()) {
+    findings->push_back(doubt);
   }
   if (!cloud.convention.doubt.empty()) findings->push_back(cloud.convention.doubt);
   if (cloud.stamp_is_recorded) {

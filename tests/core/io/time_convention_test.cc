@@ -272,6 +272,19 @@ TEST(TimeConvention, AbsoluteTimesThatLieSweepsBeforeTheStampsLeaveADoubt) {
               AllOf(HasSubstr("1 s after the first point"), HasSubstr("input.clock_offset_s")));
 }
 
+TEST(TimeConvention, StampsTooFarApartForALidarMayBeInAnotherUnit) {
+  for (const auto& [period_s, unit] : {std::pair(100.0, "in ms"), std::pair(1e5, "in us")}) {
+    TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);
+    evidence.period_s = period_s;
+    try {
+      DeduceTimeConvention(evidence, {});
+      FAIL() << "a sweep a thousand times shorter than the step of the stamps";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(unit), HasSubstr("Write the stamps in s")));
+    }
+  }
+}
+
 TEST(TimeConvention, ADelayThatIsRealLeavesNoDoubt) {
   for (const double delay_s : {0.0002, 0.002, 0.03, 0.1, 0.13}) {
     TimeEvidence evidence = FiveScans(1, 0, 0.0999, 0, true);

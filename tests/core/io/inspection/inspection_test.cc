@@ -199,6 +199,13 @@ TEST(FindingsOf, NamesWhatGoesWrong) {
   EXPECT_THAT(findings, Contains(HasSubstr("only 0 returns a message")));
 }
 
+TEST(FindingsOf, StampsThatMayBeInAnotherUnitAreNamed) {
+  CloudInspection cloud = Cloud("/a", {});
+  cloud.stamps.period_s = 100.0;
+  EXPECT_THAT(FindingsOf(cloud), Contains(HasSubstr("stamps are 100 s apart: they may be in ms, "
+                                                    "and must then be written in s")));
+}
+
 TEST(AdviseRun, TellsTheSensorByItsFields) {
   const auto config = [](std::vector<FieldDescription> fields) {
     return AdviseRun(Recording({Cloud("/points", std::move(fields))})).config;

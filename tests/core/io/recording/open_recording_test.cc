@@ -117,6 +117,17 @@ TEST(ChosenInputs, TopicsAreNamesOfFoldersWhereThereIsNoBag) {
   EXPECT_THROW(ChosenInputs({a, b}, options), InputError);
 }
 
+TEST(OpenRecording, StampsThatMayBeInMillisecondsAreTold) {
+  const TempFolder temp;
+  SmallRoom(3).Write(temp / "a");
+  trajlo::testing::WriteFile(temp / "a/timestamps.txt", "0\n100\n200\n");
+  RecordingOptions options;
+  EXPECT_THROW(OpenRecording({temp / "a"}, options), InputError);
+  options.use_point_times.values = {false};
+  EXPECT_THAT(OpenRecording({temp / "a"}, options)->report().warnings,
+              ElementsAre(HasSubstr("timestamps.txt: stamps are 100 s apart: they may be in ms")));
+}
+
 TEST(OpenRecording, APeriodContradictsStamps) {
   const TempFolder temp;
   SmallRoom(3).Write(temp / "a");
