@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/io/errors.h"
+#include "core/report/drawn_files.h"
 
 namespace trajlo {
 
@@ -63,6 +64,12 @@ void PrepareResultFolder(const fs::path& folder, const std::vector<fs::path>& fi
     fs::remove(*file, error);
     if (error) throw OutputError(*file, "the earlier result cannot be removed: " + error.message());
   }
+}
+
+void ResultFolder::Prepare() const {
+  std::error_code error;
+  if (fs::is_regular_file(fs::symlink_status(summary(), error))) RemoveWhatIsAboutResult(path_);
+  PrepareResultFolder(path_, Files());
 }
 
 }  // namespace trajlo

@@ -39,7 +39,8 @@ class ResultFolder {
   std::filesystem::path summary() const { return path_ / "run.json"; }
 
   void Check(bool overwrite) const { CheckResultFolder(path_, Files(), overwrite); }
-  void Prepare() const { PrepareResultFolder(path_, Files()); }
+  /// Removes an earlier result, and what was drawn or evaluated from it.
+  void Prepare() const;
 
  private:
   std::vector<std::filesystem::path> Files() const {

@@ -9,7 +9,7 @@ import unittest.mock
 import numpy as np
 from evaluation_folder import write_evaluation
 from result_folder import BEGIN_S, on_walls, write_ply, write_result
-from support import SCRIPTS, FolderTest
+from support import ROOT, SCRIPTS, FolderTest
 
 from trajlo_report import (evaluated, evaluation_words, figures_errors, figures_evaluation, files,
                            names, page, run_summary, theme, view)
@@ -30,6 +30,12 @@ class EvaluationPageTest(FolderTest):
         self.assertEqual(names, {f"{name}.{kind}" for name in drawn for kind in theme.FORMATS})
         self.assert_self_contained(report)
         self.assertEqual(report.read_text().count("data:image/svg+xml"), len(names) / 3)
+
+    def test_a_new_run_removes_the_figures_of_the_earlier_one(self):
+        code = (ROOT / "core/report/drawn_files.cc").read_text()
+        listed, = re.findall(r"kFigures\[\] = \{(.*?)\};", code, re.DOTALL)
+        drawn = {"thumbnail", "map", "windows", *figures_evaluation.FIGURES}
+        self.assertEqual(set(re.findall(r'"(\w+)"', listed)), drawn)
 
     def test_the_conclusion_is_a_sentence_for_each_the_best_first(self):
         write_evaluation(self.folder, {"worse": 0.1, "better": 0.01, "lost": 0.1},

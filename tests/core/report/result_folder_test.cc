@@ -74,5 +74,36 @@ TEST(ResultFolder, PrepareRemovesTheEarlierResultAndNothingElse) {
   EXPECT_TRUE(std::filesystem::is_symlink(temp / "windows.csv"));
 }
 
+TEST(ResultFolder, PagesAndEvaluationsOfAnEarlierResultGoWithIt) {
+  const TempFolder temp;
+  for (const bool is_result : {false, true}) {
+    if (is_result) WriteFile(temp / "run.json", "{}");
+    std::filesystem::create_directories(temp / "figures");
+    for (const char* name : {"run.html", "figures/map.svg", "evaluation.csv", "report.html",
+                             "errors_a.csv", "errors_mine.csv"}) {
+      WriteFile(temp / name, "old");
+    }
+    WriteFile(temp / "evaluation.json", R"({"estimates": [{"errors_csv": "errors_a.csv"}]})");
+    ResultFolder(temp.path()).Prepare();
+    for (const char* name : {"run.html", "figures", "evaluation.csv", "evaluation.json",
+                             "report.html", "errors_a.csv"}) {
+      EXPECT_EQ(std::filesystem::exists(temp / name), !is_result) << name;
+    }
+    EXPECT_TRUE(std::filesystem::exists(temp / "errors_mine.csv"));
+  }
+}
+
+TEST(ResultFolder, FiguresAndTablesOfOthersStay) {
+  const TempFolder temp;
+  std::filesystem::create_directories(temp / "figures");
+  for (const char* name : {"run.json", "figures/mine.png", "figures/map.png", "evaluation.csv"}) {
+    WriteFile(temp / name, "old");
+  }
+  ResultFolder(temp.path()).Prepare();
+  EXPECT_TRUE(std::filesystem::exists(temp / "figures/mine.png"));
+  EXPECT_FALSE(std::filesystem::exists(temp / "figures/map.png"));
+  EXPECT_TRUE(std::filesystem::exists(temp / "evaluation.csv"));  // No evaluation.json.
+}
+
 }  // namespace
 }  // namespace trajlo

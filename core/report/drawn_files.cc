@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "core/report/drawn_files.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+
+#include "core/io/errors.h"
+
+namespace trajlo {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names that scripts/trajlo_report gives to the figures of a run and of an evaluation.
+constexpr const char* kFigures[] = {
+    "thumbnail",     "map",       "windows",          "trajectory",
+    "error_on_path", "over_time", "error_components", "error_distribution",
+    "kitti_lengths"};
+
+nlohmann::json ReadEstimates(const fs::path& folder) {
+  std::ifstream stream(folder / "evaluation.json");
+  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  const bool has_some = json.is_object() && json.contains("estimates");
+  return has_some && json["estimates"].is_array() ? json["estimates"] : nlohmann::json();
+}
+
+void Remove(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return;
+  fs::remove(file, error);
+  if (error) throw OutputError(file, "the earlier result cannot be removed: " + error.message());
+}
+
+}  // namespace
+
+std::vector<fs::path> EvaluationFiles(const fs::path& folder) {
+  std::vector<fs::path> files = {folder / "evaluation.json", folder / "evaluation.csv",
+                                 folder / "evaluation.tex", folder / "report.html"};
+  for (const nlohmann::json& estimate : ReadEstimates(folder)) {
+    if (!estimate.is_object() || !estimate.contains("errors_csv")) continue;
+    if (!estimate["errors_csv"].is_string()) continue;
+    const fs::path name(estimate["errors_csv"].get<std::string>());
+    // Only files of this folder, whatever the file says.
+    if (name == name.filename() && name.string().rfind("errors_", 0) == 0) {
+      files.push_back(folder / name);
+    }
+  }
+  return files;
+}
+
+void RemoveWhatIsAboutResult(const fs::path& folder) {
+  std::vector<fs::path> files;
+  // Without its summary, files of these names are none of an evaluation.
+  if (ReadEstimates(folder).is_array()) files = EvaluationFiles(folder);
+  for (const char* name : kFigures) {
+    for (const char* kind : {".svg", ".pdf", ".png"}) {
+      files.push_back(folder / "figures" / (std::string(name) + kind));
+    }
+  }
+  files.push_back(folder / "run.html");
+  // The summary last: while a file is left, it says what the others are.
+  for (auto file = files.rbegin(); file != files.rend(); ++file) Remove(*file);
+  std::error_code error;
+  const fs::path figures = folder / "figures";
+  const bool is_folder = fs::is_directory(fs::symlink_status(figures, error));
+  if (is_folder && fs::is_empty(figures, error)) fs::remove(figures, error);
+}
+
+}  // namespace trajlo
