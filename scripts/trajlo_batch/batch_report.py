@@ -58,13 +58,17 @@ def anchor(folder):
 
 
 def summary(rows):
-    counts = {}
+    counts, doubts = {}, {}
     for row in rows:
         counts[row["result"]] = counts.get(row["result"], 0) + 1
+        doubts[row["result"]] = doubts.get(row["result"], 0) + results.in_doubt(row)
     words = {results.OK: "ended well", results.FAILED: "with an x",
              results.UNFINISHED: "not finished", results.NO_TRUTH: "without truth",
              results.NOT_ASKED: "not asked for"}
-    return ", ".join(f"{count} {words[result]}" for result, count in counts.items())
+    return ", ".join(
+        f"{count} {words[result]}" + (f" (of which {doubts[result]} with warnings about the input)"
+                                      if doubts[result] else "")
+        for result, count in counts.items())
 
 
 def write_report(plan, asked=None):

@@ -13,7 +13,8 @@ from trajlo_batch.places import read_json_if
 from trajlo_batch.steps import simulate_command
 from trajlo_batch.yaml_lines import SuiteError
 
-USABLE = (0, 3)  # exit codes of runs whose whole recording was processed
+PARTIAL = 3  # exit code of runs whose input was damaged, left out in part or in doubt
+USABLE = (0, PARTIAL)  # exit codes of runs whose whole recording was processed
 OK, FAILED, UNFINISHED, NO_TRUTH = "ok", "x", "not finished", "no truth"
 DETERMINED = "ate_rotation_determined"
 NOT_ASKED = "not asked for"  # was not done, and the batch was told to do others only
@@ -137,6 +138,11 @@ def outcome(status, evaluation_status, diverged):
     if evaluation_status["reason"]:
         return FAILED, evaluation_status["reason"]
     return (FAILED, diverged) if diverged else (OK, status["reason"])
+
+
+def in_doubt(row):
+    """A run that ended well, but whose input was damaged, left out in part or in doubt."""
+    return row["result"] in (OK, NO_TRUTH) and row.get("exit_code") == PARTIAL
 
 
 @dataclasses.dataclass(frozen=True)

@@ -9,7 +9,7 @@ import statistics
 from trajlo_batch import results, table_formats
 from trajlo_report import names
 
-X, ABSENT, PENDING = "x", "-", "…"
+X, ABSENT, PENDING, DOUBT = "x", "-", "…", "!"
 GOOD = (results.OK, results.NO_TRUTH)
 # What readers see in the place of a column of results.csv.
 METRICS = {"ate_rmse_m": "absolute position error, RMSE [m]",
@@ -64,7 +64,7 @@ def result_cell(rows, suite, decimals):
     if not rows:
         return Cell(ABSENT)
     note = "; ".join(f"{row['sequence']}: {row['result']}, {row['reason']}"
-                     for row in rows if row["result"] not in GOOD)
+                     for row in rows if row["result"] not in GOOD or results.in_doubt(row))
     folder = rows[0]["folder"]
     values = [row[suite.metric] for row in rows
               if row["result"] in GOOD and row.get(suite.metric) is not None]
@@ -82,6 +82,8 @@ def result_cell(rows, suite, decimals):
     if len(values) > 1:
         spread = f"{min(values):.{decimals}f} to {max(values):.{decimals}f}, {len(values)} seeds"
         note = f"{spread}; {note}" if note else spread
+    if any(map(results.in_doubt, rows)):
+        text += f" {DOUBT}"
     if failed:
         text += f" ({failed} {X})"
     # One that fails on a seed is not the best, however good the others are; of one that has not
@@ -163,11 +165,17 @@ def seeds_note(suite, rows):
     if most < 2:
         return []
     said = f"of {most} seeds" if least == most else (
-        f"over the seeds of its sequence: {least} to {most}, and a cell of fewer than {most} says "
-        "of how many")
+        f"over the seeds of its sequence ({least} to {most}); cells based on fewer seeds say so")
     real = "; real recordings have no seeds" if 0 in counts else ""
     return [f"Each value is the {suite.over_seeds} {said}{real}; (1 x) says that one of them "
             f"failed, (1 of {most}) that only one has ended."]
+
+
+def doubt_note(lines):
+    """What the sign at a value means, where there is one."""
+    marked = any(DOUBT in cell.text for line in lines if line.ours for cell in line.cells)
+    return [f"{DOUBT}: a run behind this value ended with exit code 3: a part of its input was "
+            "damaged, left out or in doubt; results.csv says which."] if marked else []
 
 
 def our_lines(suite, rows, columns, decimals, average=""):
@@ -199,6 +207,7 @@ def compared_table(suite, rows, published):
     lines.sort(key=lambda line: order.index(line.category))
     mark(lines, suite.metric)
     notes = [f"Rows without * are from {published.source}.", *published.notes]
+    notes += doubt_note(lines)
     table = Table(published.caption, list(published.columns), lines, notes)
     if "AVG" in table.columns:
         groups = {sequence.group for sequence in suite.sequences}
@@ -220,7 +229,7 @@ def suite_table(suite, rows, marked=True):
     if marked and len(lines) > 1:
         mark(lines, suite.metric)
     notes = [f"{group}: degenerate by construction ({why})" for group, why in degenerate.items()]
-    notes += seeds_note(suite, rows)
+    notes += seeds_note(suite, rows) + doubt_note(lines)
     table = Table(f"{suite.title}: {METRICS.get(suite.metric, suite.metric)}", groups, lines, notes,
                   transposed=suite.rows == "sequences")
     if suite.average:
@@ -236,5 +245,5 @@ def speed_table(suite, rows):
     threads = names.counted(suite.threads, "thread")
     table.caption = f"{suite.title}: processor time for a second of data [s], {threads} a run"
     table.notes = ["Below 1, one core keeps up with the sensor. Reading the recording and writing "
-                   "the results are counted."]
+                   "the results are counted.", *doubt_note(table.lines)]
     return table

@@ -5,7 +5,7 @@ import unittest
 
 from support import ROOT, FolderTest
 
-from trajlo_batch import results, table_formats, tables
+from trajlo_batch import batch_report, results, table_formats, tables
 from trajlo_batch.published import read_published
 from trajlo_batch.suite import Configuration, Sequence, Suite
 from trajlo_batch.yaml_lines import SuiteError
@@ -203,8 +203,24 @@ class SuiteTableTest(unittest.TestCase):
         self.assertEqual([cell.text for cell in table.lines[0].cells],
                          ["0.1000", "0.1000 (1 seed)", "0.1000 (1 x) (2 seeds)", "0.1000"])
         note, = table.notes
-        self.assertIn("median over the seeds of its sequence: 1 to 3, and a cell of fewer than 3 "
-                      "says of how many; real recordings have no seeds; (1 x)", note)
+        self.assertIn("median over the seeds of its sequence (1 to 3); cells based on fewer seeds "
+                      "say so; real recordings have no seeds; (1 x)", note)
+
+    def test_a_run_whose_input_is_in_doubt_has_a_sign_and_a_note(self):
+        suite = make_suite(groups=("a", "b"))
+        rows = [dict(row("ours", "a", 0.1), exit_code=3, reason="a scan is damaged"),
+                dict(row("ours", "b", 0.1), exit_code=0)]
+        table = tables.suite_table(suite, rows)
+        self.assertEqual([cell.text for cell in table.lines[0].cells], ["0.1000 !", "0.1000"])
+        self.assertIn("a scan is damaged", table.lines[0].cells[0].note)
+        self.assertIn("!: a run behind this value ended with exit code 3", table.notes[0])
+        self.assertEqual(batch_report.summary(rows),
+                         "2 ended well (of which 1 with warnings about the input)")
+        rows[0]["exit_code"] = 0
+        self.assertEqual(tables.suite_table(suite, rows).notes, [])
+        self.assertEqual(batch_report.summary(rows), "2 ended well")
+        rows[0].update(exit_code=3, result="x")  # It failed for something else.
+        self.assertEqual(tables.suite_table(suite, rows).lines[0].cells[0].text, "x")
 
     def test_an_unfinished_run_is_no_failure(self):
         table = tables.suite_table(make_suite(), [row("ours", "eee_01", None, "not finished")])
