@@ -9,6 +9,7 @@ import numpy as np
 from trajlo_batch import results
 
 BOOTSTRAP = 2000
+PRINTED = 0.005  # relative differences that are smaller are not seen in tables
 
 
 def error_of(row, metric):
@@ -134,6 +135,29 @@ def enough_seeds(recordings):
     counts = [groups.count(group) for group in dict.fromkeys(groups)]
     least_alone = math.prod(count ** -count for count in counts)
     return min(counts, default=0) > 2 and least_alone < 0.025
+
+
+def same_results(one, other):
+    """Whether two points have the same error, to the last digit, on every recording."""
+    return one.errors == other.errors
+
+
+def is_tie(one, other):
+    """Whether two points that never failed differ by less than their seeds scatter (two standard
+    errors of the difference on the same recordings), or by less than is printed."""
+    if not (math.isfinite(one.score) and math.isfinite(other.score)):
+        return False
+    means, squares, freedom = [], 0.0, 0
+    variance_of_mean = 0.0
+    for group, errors in one.errors.items():
+        ratios = np.log(np.maximum(other.errors[group], 1e-12) / np.maximum(errors, 1e-12))
+        means.append(ratios.mean())
+        squares += ((ratios - ratios.mean()) ** 2).sum()
+        freedom += len(ratios) - 1
+        variance_of_mean += 1.0 / len(ratios)
+    variance = squares / freedom if freedom else 0.0
+    scatter = math.sqrt(variance * variance_of_mean) / len(means)
+    return abs(np.mean(means)) < max(2.0 * scatter, PRINTED)
 
 
 def rank(rows, metric, reference, rng=None):

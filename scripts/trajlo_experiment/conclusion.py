@@ -12,6 +12,9 @@ from trajlo_experiment.findings import level_text
 from trajlo_report import names
 
 
+LISTED = 3  # of settings that tie
+
+
 def setting_text(findings, row):
     return ", ".join(level_of(factor, row[factor.name]) for factor in findings.study.factors
                      if row[factor.name] is not None)
@@ -47,11 +50,49 @@ def scatter(findings, best):
     return text
 
 
+def best_of(ranked):
+    """The best setting, and those that are as good."""
+    return [item for item in ranked if item is ranked[0] or analysis.is_tie(ranked[0], item)]
+
+
+def which_is_best(findings, ranked):
+    row_of = {row["point"]: row for row in findings.rows}
+    tied, best = best_of(ranked), ranked[0]
+    if len(tied) < 2:
+        return f"The best of {len(ranked)} settings is {setting_text(findings, row_of[best.point])}."
+    listed = [f"({setting_text(findings, row_of[item.point])})" for item in tied[:LISTED]]
+    more = f" and {len(tied) - LISTED} more" if len(tied) > LISTED else ""
+    why = ("they gave exactly the same results"
+           if all(analysis.same_results(best, item) for item in tied)
+           else "their errors differ by less than seeds scatter, or than is printed")
+    return (f"None of {len(ranked)} settings is the best: {len(tied)} tie, {', '.join(listed)}{more}; "
+            f"{why}.")
+
+
+def without_effect(findings, ranked):
+    """Factors whose settings, where nothing else differs, have the same errors on every run."""
+    levels = {point.name: point.levels for point in findings.study.points if point.in_design}
+    said = []
+    for factor in findings.study.factors:
+        alike = {}
+        for item in ranked:
+            if factor.name in levels.get(item.point, {}):
+                others = sorted((name, str(level)) for name, level in levels[item.point].items()
+                                if name != factor.name)
+                alike.setdefault(str(others), []).append(item)
+        compared = [items for items in alike.values() if len(items) > 1]
+        if compared and all(analysis.same_results(items[0], item)
+                            for items in compared for item in items):
+            said.append(f"{parts_of(factor.label)[0]} has no effect here: settings that differ in it "
+                        "alone gave exactly the same results.")
+    return said
+
+
 def about_best(findings, ranked):
     """The best setting, and how it compares with what the errors are relative to."""
     row_of = {row["point"]: row for row in findings.rows}
     best = ranked[0]
-    said = [f"The best of {len(ranked)} settings is {setting_text(findings, row_of[best.point])}."]
+    said = [which_is_best(findings, ranked)]
     if best.failed:
         none = "No setting ended well on all recordings."
         return [none, *said, f"It failed {best.failed} times."] if math.isfinite(best.score) else [
@@ -60,13 +101,17 @@ def about_best(findings, ranked):
     reference = findings.study.reference
     if not findings.reference.is_marked:
         return said
+    if len(best_of(ranked)) > 1 and any(reference in analysis.marks_of(row_of[item.point])
+                                        for item in best_of(ranked)):
+        return [f"{said[0]} “{reference}” is among them."]
     if reference in marks:
         return [f"{said[0]} That is “{reference}”."]
     place = next((place for place, item in enumerate(ranked, 1)
                   if reference in analysis.marks_of(row_of[item.point])), None)
     which = f", which is number {place}" if place else ""
     where = findings.compared_text and f"{findings.compared_text},"
-    return [*said, f"Its error{where} is {change(best.score)} that of "
+    whose = "The error of the first of them" if len(best_of(ranked)) > 1 else "Its error"
+    return [*said, f"{whose}{where} is {change(best.score)} that of "
             f"“{reference}”{which}{scatter(findings, best)}."]
 
 
@@ -148,7 +193,7 @@ def sentences(findings):
     ranked = findings.ranked()
     if not ranked:
         return ["No setting has ended on all recordings yet."] if findings.rows else []
-    return [*about_best(findings, ranked), *about_factors(findings),
+    return [*about_best(findings, ranked), *without_effect(findings, ranked), *about_factors(findings),
             *about_failures(findings, ranked)]
 
 

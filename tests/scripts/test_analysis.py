@@ -72,6 +72,19 @@ class RankTest(unittest.TestCase):
         first, second = self.rank({"a": {"g": [0.1, 0.2, 0.9, 1]}, "b": {"g": [0.2, 0.3, 1, 2]}})
         self.assertEqual((first.point, first.best_share, second.best_share), ("a", 1.0, 0.0))
 
+    def test_a_tie_is_what_differs_less_than_the_seeds_scatter_or_than_is_printed(self):
+        def tie(one, other):
+            first, second = self.rank({"a": one, "b": other})
+            return analysis.is_tie(first, second)
+
+        self.assertTrue(tie({"g": [1.0, 2.0]}, {"g": [1.0, 2.0]}))
+        self.assertTrue(tie({"g": [1.0]}, {"g": [1.004]}))
+        self.assertFalse(tie({"g": [1.0]}, {"g": [1.1]}))
+        # Seeds differ much, and the settings always by the same.
+        self.assertFalse(tie({"g": [1.0, 9.0]}, {"g": [1.1, 9.9]}))
+        self.assertTrue(tie({"g": [1.0, 1.0, 1.0]}, {"g": [1.2, 0.9, 1.1]}))
+        self.assertFalse(tie({"g": [1.0, 1.0]}, {"g": [1.0, None]}))
+
     def test_one_that_failed_comes_after_all_that_did_not(self):
         ranked = self.rank({"fast": {"g": [0.01, None]}, "steady": {"g": [1.0, 1.0]},
                             "lost": {"g": [None, None]}})

@@ -190,19 +190,37 @@ class FiguresTest(PretendedTest):
 
         findings = self.findings(GRID, error_of)
         self.assertEqual(findings.ratio_label, "error / error of paper, on 4 of 6 recordings")
-        self.assertIn("Its error, on 4 of 6 recordings, is as high as that of “paper”",
-                      conclusion.sentences(findings)[1])
+        self.assertIn("The error of the first of them, on 4 of 6 recordings, is as high as that of "
+                      "“paper”", conclusion.sentences(findings)[1])
 
     def test_the_conclusion_names_the_best_setting_and_the_factor_that_matters(self):
         sentences = conclusion.sentences(self.findings(GRID))
-        self.assertEqual(sentences[0], "The best of 7 settings is σ = 1 m, kernel = none.")
-        self.assertIn("Its error is as high as that of “paper”", sentences[1])
-        self.assertIn("other seeds might well turn that around", sentences[1])
+        self.assertEqual(sentences[0], "None of 7 settings is the best: 2 tie, (σ = 1 m, kernel = "
+                         "none), (σ = 1 m, kernel = huber); they gave exactly the same results. "
+                         "“paper” is among them.")
+        self.assertEqual(sentences[1], "kernel has no effect here: settings that differ in it "
+                         "alone gave exactly the same results.")
         self.assertIn("σ matters most: 2 of 12 runs failed with σ = 10 m, and no setting with it "
                       "ended well on all recordings.", sentences)
         self.assertIn("Between its other values the mean error differs by a factor of 2.0.",
                       sentences)
         self.assertIn("2 of 7 settings failed on at least one recording.", sentences)
+
+    def test_what_the_seeds_scatter_more_than_it_differs_is_a_tie(self):
+        def error_of(levels, group, seed):
+            none = levels["a.kernel"] == "none"
+            return 0.01 * levels["a.sigma_m"] * (1 + (0.1 * (seed - 1.9) if none else 0.0))
+
+        sentences = conclusion.sentences(self.findings(GRID, error_of))
+        self.assertIn("2 tie, (σ = 0.1 m, kernel = huber), (σ = 0.1 m, kernel = none); their errors "
+                      "differ by less than seeds scatter", sentences[0])
+        self.assertIn("The error of the first of them is 90 % lower than that of “paper”",
+                      sentences[1])
+        self.assertFalse(any("no effect" in sentence for sentence in sentences))
+        clear = self.findings(GRID, lambda levels, _, seed: 0.01 * seed * levels["a.sigma_m"] * (
+            2 if levels["a.kernel"] == "none" else 1))
+        self.assertIn("The best of 7 settings is σ = 0.1 m, kernel = huber.",
+                      conclusion.sentences(clear)[0])
 
     def test_the_best_may_be_the_reference_itself(self):
         worse = self.findings(GRID, lambda levels, *_: 0.01 if levels == {
