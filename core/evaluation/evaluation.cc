@@ -71,7 +71,7 @@ double FindTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
   TimeOffsetOptions search;
   search.around_s = options.time_offset_s;
   search.reach_s = options.time_offset_reach_s;
-  search.max_gap_s = options.association.max_gap_s;
+  search.association = options.association;
   const AlignmentKind kind = options.alignment.kind;
   search.with_scale = kind == AlignmentKind::kSim3 || kind == AlignmentKind::kScale;
   const TimeOffset found =

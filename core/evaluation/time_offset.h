@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/evaluation/association.h"
 #include "core/evaluation/timed_poses.h"
 
 namespace trajlo {
@@ -11,8 +12,9 @@ struct TimeOffsetOptions {
   /// The middle of the search and its reach to both sides.
   double around_s = 0.0;
   double reach_s = 0.5;
-  /// Nothing is interpolated across a longer gap of the truth; 0: MaxGap() decides.
-  double max_gap_s = 0.0;
+  /// How poses are brought together. Rules that interpolate nothing have errors that jump with the
+  /// offset: the truth is interpolated in their place.
+  PoseAssociationOptions association;
   /// Scale is aligned, too.
   bool with_scale = false;
 };
@@ -29,9 +31,9 @@ struct TimeOffset {
 };
 
 /// Finds the offset between the clocks of estimate and truth that minimises the absolute position
-/// error after Umeyama's alignment, the truth being interpolated: a grid of steps of at most
-/// 0.02 s, then a golden section search to 10 us around the best one. Offsets that lose more than
-/// a fifth of the pairs are not considered. Both must have stamps and describe the same frame.
+/// error after Umeyama's alignment: a grid of steps of at most 0.02 s, then a golden section
+/// search to 10 us around the best one. Offsets that lose more than a fifth of the pairs are not
+/// considered. Both must have stamps and describe the same frame.
 /// Throws EvaluationError if nothing can be compared anywhere in the range.
 TimeOffset EstimateTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
                               const TimeOffsetOptions& options);

@@ -159,6 +159,39 @@ TEST(TimeOffset, OfTwoClocksIsFound) {
   }
 }
 
+TEST(TimeOffset, IsFoundByTheRuleThatPairsThePoses) {
+  // Of a truth at 1 Hz, whose straight lines the body leaves, and which has no gap below 0.3 s.
+  const TimedPoses estimate = SmoothPoses(2.0, 0.02, 800, 0.137);
+  for (const double max_gap_s : {0.0, 0.3}) {
+    EvaluationOptions options;
+    options.estimate_time_offset = true;
+    options.association.rule = AssociationRule::kInterpolateEstimate;
+    options.association.max_gap_s = max_gap_s;
+    const Evaluation e = Evaluate(estimate, SmoothPoses(0.0, 1.0, 21), options);
+    EXPECT_NEAR(e.time_offset_s, -0.137, 1e-3) << max_gap_s;
+    EXPECT_LT(e.estimated_time_offset->rmse_m, 1e-3);
+  }
+}
+
+TEST(TimeOffset, WithFewPairsIsNoCandidate) {
+  // Moments of a truth with gaps: few offsets keep all pairs, others only those that fit by chance.
+  TimedPoses estimate = SmoothPoses(0.0, 1.0, 20), truth, all = SmoothPoses(0.0, 0.005, 4000);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double into_second_s = std::fmod(0.005 * static_cast<double>(i) + 0.5, 1.0) - 0.5;
+    if (std::abs(into_second_s) > 0.011 && i > 400) continue;
+    truth.t_ns.push_back(all.t_ns[i]);
+    truth.T_world_body.push_back(all.T_world_body[i]);
+  }
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    estimate.T_world_body[i].translation().x() += 0.05 * std::sin(5.0 * static_cast<double>(i));
+  }
+  TimeOffsetOptions options;
+  options.reach_s = 0.3;
+  const TimeOffset found = EstimateTimeOffset(estimate, truth, options);
+  EXPECT_LT(std::abs(found.offset_s), 0.012);  // There all pairs are, and nowhere else.
+  EXPECT_LE(found.rmse_m, found.rmse_around_m);
+}
+
 TEST(TimeOffset, IsFoundWhereTheScaleDiffers) {
   TimedPoses truth = SmoothPoses(0.0, 0.01, 2000);
   for (Eigen::Affine3d& T : truth.T_world_body) T.translation() *= 2.0;
