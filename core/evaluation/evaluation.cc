@@ -10,6 +10,7 @@
 #include "core/evaluation/error_causes.h"
 #include "core/evaluation/evaluation_error.h"
 #include "core/evaluation/rotation_doubt.h"
+#include "core/evaluation/shape_doubt.h"
 #include "core/evaluation/stamp_search.h"
 #include "core/io/format_text.h"
 
@@ -152,6 +153,11 @@ Evaluation Evaluate(const TimedPoses& estimate, const TimedPoses& truth,
   evaluation.alignment = ComputeAlignment(evaluation.pairs, options.alignment);
   if (!evaluation.alignment.warning.empty()) {
     evaluation.warnings.push_back(evaluation.alignment.warning);
+  }
+  const AlignmentKind kind = options.alignment.kind;
+  const bool with_scale = kind == AlignmentKind::kSim3 || kind == AlignmentKind::kScale;
+  for (std::string& warning : JudgeShape(evaluation.pairs, with_scale)) {
+    evaluation.warnings.push_back(std::move(warning));
   }
   for (PosePair& pair : evaluation.pairs) pair.estimate = evaluation.alignment * pair.estimate;
   evaluation.errors = AbsoluteErrors(evaluation.pairs, evaluation.has_orientation);

@@ -22,6 +22,8 @@ constexpr double kNoticedDeg = 0.1;
 constexpr double kConstantRatio = 10.0;
 // No frame is forgotten for less. A mounting that is off by as much is a matter of calibration.
 constexpr double kFrameDeg = 2.0;
+// A flat path that is mirrored is one that is turned over.
+constexpr double kMirroredDeg = 150.0;
 // The other order of a quaternion is meant if rotations agree better by this.
 constexpr double kOrderRatio = 4.0;
 
@@ -117,8 +119,17 @@ RotationDoubt JudgeRotations(const std::vector<PosePair>& aligned, const Alignme
     doubt.warnings.push_back(FormatText(
         "ATE [deg] is the same turn of %.3g deg at every pose, to within %.2g deg: the ground "
         "truth may be that of another frame on the body (--T_body_truth), or have quaternions with "
-        "w first",
-        constant_deg, in_body.rest_deg));
+        "w first%s",
+        constant_deg, in_body.rest_deg,
+        constant_deg > kMirroredDeg
+            ? ", or left-handed axes: the mirror image of a flat path is it "
+              "turned over"
+            : ""));
+  } else if (by_positions && in_world.rms_deg > kMirroredDeg) {
+    doubt.warnings.push_back(FormatText(
+        "positions fit where the attitudes differ by nearly half a turn (%.3g deg): the ground "
+        "truth may have left-handed axes, since the mirror image of a flat path is it turned over",
+        in_world.rms_deg));
   }
   return doubt;
 }

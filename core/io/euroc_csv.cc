@@ -12,12 +12,14 @@
 namespace trajlo {
 namespace {
 
-/// Takes the next field off a line of csv, without the blanks around it.
+/// Takes the next field off a line of csv, without the blanks around it; nothing of one with blanks
+/// inside, which is no number.
 std::string_view TakeField(std::string_view* line) {
   const std::size_t comma = line->find(',');
   std::string_view field = line->substr(0, comma);
   line->remove_prefix(comma == std::string_view::npos ? line->size() : comma + 1);
-  return TakeWord(&field);
+  const std::string_view word = TakeWord(&field);
+  return TakeWord(&field).empty() ? word : std::string_view();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/io/euroc_csv.h"
 #include "core/io/file_bytes.h"
 #include "core/io/format_text.h"
+#include "core/io/heading_advice.h"
 #include "core/io/kitti_poses.h"
 #include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
@@ -21,6 +22,19 @@ constexpr std::int64_t kSecondNs = 1'000'000'000;
 // A file full of the same defect is described by its first lines.
 constexpr std::size_t kWarningsPerFile = 3;
 
+/// Blanks between the columns, and in some of them a comma in place of a point.
+bool HasDecimalCommas(std::string_view line) {
+  std::size_t words = 0, with_comma = 0;
+  for (std::string_view word = TakeWord(&line); !word.empty(); word = TakeWord(&line)) {
+    ++words;
+    const std::size_t comma = word.find(',');
+    if (comma == std::string_view::npos) continue;
+    if (comma == 0 || comma + 1 == word.size() || comma != word.rfind(',')) return false;
+    ++with_comma;
+  }
+  return words > 1 && with_comma > 0;
+}
+
 TrajectoryFormat Detect(const std::filesystem::path& path, std::string_view text) {
   MeaningfulLines lines(text);
   std::string_view line;
@@ -28,6 +42,10 @@ TrajectoryFormat Detect(const std::filesystem::path& path, std::string_view text
   const std::string where = "line " + std::to_string(lines.number());
   if (line.find(',') != std::string_view::npos) {
     std::string_view stamp = line.substr(0, line.find(','));
+    if (AllDigits(stamp) && HasDecimalCommas(line)) {
+      throw InputError(path, where + " has decimal commas",
+                       "Numbers need a point ('0.5', not '0,5').");
+    }
     stamp = TakeWord(&stamp);
     double number = 0.0;
     // With a fraction these would be seconds, and nobody could tell the order of the quaternion.
@@ -36,14 +54,17 @@ TrajectoryFormat Detect(const std::filesystem::path& path, std::string_view text
                      "EuRoC's csv begins with whole nanoseconds; TUM's format has blanks "
                      "between its columns.");
   }
+  const std::string advice = HeadingAdvice(line);
   std::size_t columns = 0;
   while (!TakeWord(&line).empty()) ++columns;
   if (columns == 8 || columns == 4) return TrajectoryFormat::kTum;
   if (columns == 12) return TrajectoryFormat::kKitti;
-  throw InputError(path, where + " has " + std::to_string(columns) + " columns",
-                   "Trajectories have 8 (TUM: stamp x y z qx qy qz qw), 4 (stamp x y z) or 12 "
-                   "(KITTI: the pose's "
-                   "first three rows), or are EuRoC's csv.");
+  throw InputError(
+      path, where + " has " + std::to_string(columns) + " columns",
+      std::string("Trajectories have 8 (TUM: stamp x y z qx qy qz qw), 4 (stamp x y z) or 12 "
+                  "(KITTI: the pose's "
+                  "first three rows), or are EuRoC's csv.") +
+          advice);
 }
 
 /// A stamp in ns, us or ms in a file that should have seconds is the usual mistake.

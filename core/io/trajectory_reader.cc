@@ -8,6 +8,7 @@
 #include "core/io/errors.h"
 #include "core/io/file_bytes.h"
 #include "core/io/finite_pose.h"
+#include "core/io/heading_advice.h"
 #include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
@@ -90,8 +91,9 @@ std::vector<StampedPose> ParseTum(const std::filesystem::path& path, std::string
     } else {
       throw InputError(
           path, "line " + std::to_string(lines.number()) + " is not 'stamp x y z qx qy qz qw'",
-          "A TUM trajectory has eight numbers a line, separated by blanks; positions alone have "
-          "four, 'stamp x y z'.");
+          std::string("A TUM trajectory has eight numbers a line, separated by blanks; positions "
+                      "alone have four, 'stamp x y z'.") +
+              (poses.empty() && positions.empty() ? HeadingAdvice(line) : ""));
     }
   }
   if (poses.empty() && !positions.empty()) {

@@ -146,6 +146,49 @@ TEST(Evaluation, QuaternionsWithTheScalarFirstAreSuspected) {
               ::testing::ElementsAre(HasSubstr("w first")));
 }
 
+TEST(Evaluation, AnotherUnitOfTheTruthIsSuspected) {
+  TimedPoses truth = SmoothPoses(0.0, 0.05, 400);
+  for (Eigen::Affine3d& T : truth.T_world_body) T.translation() *= 1000.0;
+  EXPECT_THAT(Evaluate(SmoothPoses(1.0, 0.1, 100), truth, {}).warnings,
+              ::testing::Contains(HasSubstr("about 1000 times as large")));
+  EvaluationOptions options;
+  options.alignment.kind = AlignmentKind::kSim3;
+  EXPECT_THAT(Evaluate(SmoothPoses(1.0, 0.1, 100), truth, options).warnings,
+              ::testing::Not(::testing::Contains(HasSubstr("times as large"))));
+}
+
+TEST(Evaluation, AMirroredTruthIsSuspected) {
+  TimedPoses truth = SmoothPoses(0.0, 0.05, 400);
+  const Eigen::Vector3d mirror(1.0, -1.0, 1.0);
+  for (Eigen::Affine3d& T : truth.T_world_body) {
+    T.translation().y() *= -1.0;
+    T.linear() = mirror.asDiagonal() * T.linear() * mirror.asDiagonal();
+  }
+  EXPECT_THAT(Evaluate(SmoothPoses(1.0, 0.1, 100), truth, {}).warnings,
+              ::testing::Contains(HasSubstr("mirror image")));
+}
+
+TEST(Evaluation, AMirroredFlatPathIsSuspectedByItsAttitudes) {
+  for (const double tilt_rad : {0.0, 0.4}) {
+    TimedPoses estimate, truth;
+    for (int i = 0; i < 100; ++i) {
+      const double yaw_rad = 0.05 * i;
+      const Eigen::Vector3d place(0.1 * i, std::sin(yaw_rad), 0.0);
+      const Eigen::Quaterniond q =
+          Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(tilt_rad * std::sin(0.7 * i), Eigen::Vector3d::UnitY());
+      estimate.t_ns.push_back(Nanoseconds(0.1 * i));
+      estimate.T_world_body.emplace_back(Eigen::Translation3d(place) * q);
+      truth.t_ns.push_back(estimate.t_ns.back());
+      // As the axes x, -y, z have it.
+      truth.T_world_body.emplace_back(Eigen::Translation3d(place.x(), -place.y(), 0.0) *
+                                      Eigen::Quaterniond(q.w(), -q.x(), q.y(), -q.z()));
+    }
+    EXPECT_THAT(Evaluate(estimate, truth, {}).warnings,
+                ::testing::ElementsAre(HasSubstr("left-handed axes")));
+  }
+}
+
 TEST(TimeOffset, OfTwoClocksIsFound) {
   for (const double clock_s : {0.137, -0.4321}) {
     const TimedPoses estimate = SmoothPoses(2.0, 0.1, 100, clock_s);

@@ -134,6 +134,13 @@ TEST_F(TrajectoryFileTest, MessagesSayWhatWasFoundAndWhatIsWanted) {
   EXPECT_THAT(ErrorOf("0 1 0 0 4 0 1 0 5 0 0 1 6\n"), HasSubstr("13 columns"));
   EXPECT_THAT(ErrorOf("1005802000000 0 0 0 0 0 0 1\n"), HasSubstr("ns, us or ms"));
   EXPECT_THAT(ErrorOf("1.5,1,2,3,1,0,0,0\n"), HasSubstr("nanoseconds"));
+  EXPECT_THAT(ErrorOf("1000,5 0,1 0,2 0,3 0,0 0,0 0,0 1,0\n"), HasSubstr("decimal commas"));
+  EXPECT_THAT(ErrorOf("1000,5\t0 0 0 0 0 0 1\n"), HasSubstr("decimal commas"));
+  EXPECT_THAT(ErrorOf("1,2 5,3,4,1,0,0,0,9\n"), HasSubstr("line 1 is not"));
+  EXPECT_THAT(ErrorOf("t x y z qx qy qz qw\n1 0 0 0 0 0 0 1\n"),
+              HasSubstr("begin the line with #"));
+  EXPECT_THAT(ErrorOf("t x y\n1 0 0 0 0 0 0 1\n"), HasSubstr("begin the line with #"));
+  EXPECT_THAT(ErrorOf("1 2 3\n"), ::testing::Not(HasSubstr("begin the line")));
   EXPECT_THAT(ErrorOf("1,2,3,4,x,6,7,8\n"), HasSubstr("line 1"));
   EXPECT_THAT(ErrorOf("# nothing\n"), HasSubstr("no poses"));
   EXPECT_THAT(ErrorOf("1 0 0 4 0 1 0 5 0 0 1 6\n1 0 0 4\n"), HasSubstr("line 2"));
