@@ -171,11 +171,13 @@ std::string OfSeveral(const EvaluateRequest& request, const EvaluationReport& re
                                                                          : "  "));
     }
   }
-  std::string text =
-      Line("truth", TrajectoryText(report.truth)) +
-      Line("compared", ComparedText(request, report)) + "\n" + Aligned(rows) +
-      "\nrmse; * the best; x diverged: " + DivergenceRule(request.options.divergence) + "\n" +
-      (doubts ? "? mostly a turn that the alignment leaves open\n" : "") + notes;
+  const std::string no_best = CoveredDifferently(report);
+  if (!no_best.empty()) notes += no_best + "\n";
+  std::string text = Line("truth", TrajectoryText(report.truth)) +
+                     Line("compared", ComparedText(request, report)) + "\n" + Aligned(rows) +
+                     "\nrmse; " + (no_best.empty() ? "* the best; " : "") +
+                     "x diverged: " + DivergenceRule(request.options.divergence) + "\n" +
+                     (doubts ? "? mostly a turn that the alignment leaves open\n" : "") + notes;
   return text;
 }
 

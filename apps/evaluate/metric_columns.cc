@@ -114,7 +114,24 @@ std::string FormatValue(const std::optional<double>& value, int decimals) {
   return FormatText(*value < 1e7 ? "%.*f" : "%.*e", decimals, *value);
 }
 
+std::string CoveredDifferently(const EvaluationReport& report) {
+  constexpr double kAlike = 0.03;
+  double least = 1.0, most = 0.0;
+  for (const EstimateReport& estimate : report.estimates) {
+    if (estimate.Diverged()) continue;
+    least = std::min(least, estimate.evaluation->completeness);
+    most = std::max(most, estimate.evaluation->completeness);
+  }
+  if (most - least <= kAlike) return "";
+  return FormatText(
+      "no best is marked: the estimates cover different parts of the ground truth (%.1f to %.1f "
+      "%%), "
+      "and errors over different parts do not compare",
+      100.0 * least, 100.0 * most);
+}
+
 std::string BestValue(const EvaluationReport& report, const MetricColumn& column) {
+  if (!CoveredDifferently(report).empty()) return "";
   std::optional<double> best;
   std::size_t candidates = 0;
   for (const EstimateReport& estimate : report.estimates) {

@@ -32,6 +32,9 @@ std::vector<MetricColumn> MetricColumns(const std::vector<RelativeErrorOptions>&
 /// estimates apart.
 std::vector<MetricColumn> MainColumns(const EvaluationReport& report,
                                       const std::vector<RelativeErrorOptions>& pieces);
+/// Why no best is marked: estimates that did not diverge cover different shares of the truth. Empty
+/// if they do not.
+std::string CoveredDifferently(const EvaluationReport& report);
 
 /// The smallest value of a column among the estimates that did not diverge, and those that are not
 /// in doubt, as it is printed; empty if there are fewer than two to choose from.

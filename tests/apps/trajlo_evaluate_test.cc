@@ -321,6 +321,16 @@ TEST_F(TrajloEvaluateTest, ATimeOffsetIsFoundAndReported) {
   EXPECT_NEAR(Json()["estimates"][0]["time_offset_s"].get<double>(), -0.123, 1e-4);
 }
 
+TEST_F(TrajloEvaluateTest, NoBestOfEstimatesThatCoverDifferentParts) {
+  TimedPoses part = Disturbed(0.004);
+  part.t_ns.resize(part.t_ns.size() * 8 / 10);
+  part.T_world_body.resize(part.t_ns.size());
+  WritePoses("part.tum", part);
+  const Outcome outcome = Call({"good.tum", "part.tum", "--truth=" + Path("truth.tum")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("no best is marked"), Not(HasSubstr(" *"))));
+}
+
 TEST_F(TrajloEvaluateTest, TheScriptDrawsTheOutputAndMayBeMissing) {
   setenv("TRAJLO_SCRIPTS", temp_.path().c_str(), 1);
   const Outcome missing = Call({"good.tum", "truth.tum", Output()});
