@@ -156,13 +156,14 @@ ExitCode RunComparison(const CompareRequest& request, const std::atomic<bool>& s
   PrepareFolder(request);
   CompareReport report;
   Compare(request, stop, &report);
-  const std::string problem =
-      request.draw ? RunDrawScript("draw_comparison.py", request.output) : "";
-  if (!problem.empty()) {
-    std::fprintf(stderr, "trajlo_compare_solvers: no figures: %s\n", problem.c_str());
+  const DrawOutcome drawn =
+      request.draw ? RunDrawScript("draw_comparison.py", request.output) : DrawOutcome();
+  if (!drawn.problem.empty()) {
+    std::fprintf(stderr, "trajlo_compare_solvers: no figures: %s\n", drawn.problem.c_str());
   }
   if (!request.quiet) std::fputs(CompareTables(report).c_str(), stdout);
-  return Judge(report, !request.truth.empty(), stop);
+  const ExitCode code = Judge(report, !request.truth.empty(), stop);
+  return drawn.output_failed && code == ExitCode::kOk ? ExitCode::kOutputNotWritable : code;
 }
 
 }  // namespace trajlo

@@ -116,12 +116,14 @@ std::size_t PrintFailures(const EvaluationReport& report) {
   return failures;
 }
 
-void WriteAndDraw(const EvaluateRequest& request, const EvaluationReport& report) {
+/// Returns whether all that was asked for could be written.
+bool WriteAndDraw(const EvaluateRequest& request, const EvaluationReport& report) {
   WriteEvaluation(request, report);
-  const std::string problem =
-      request.draw ? RunDrawScript("draw_evaluation.py", request.output) : "";
-  if (!problem.empty()) PrintWarnings(kCommand, {"no figures: " + problem});
+  const DrawOutcome drawn =
+      request.draw ? RunDrawScript("draw_evaluation.py", request.output) : DrawOutcome();
+  if (!drawn.problem.empty()) PrintWarnings(kCommand, {"no figures: " + drawn.problem});
   if (!request.quiet) std::printf("result      %s\n", request.output.c_str());
+  return !drawn.output_failed;
 }
 
 }  // namespace
@@ -135,7 +137,7 @@ ExitCode EvaluateJob(const EvaluateRequest& request) {
   if (failures == report.estimates.size()) return ExitCode::kInputUnreadable;
   if (!request.quiet) std::fputs(EvaluationTable(request, report).c_str(), stdout);
   std::fflush(stdout);
-  if (writes) WriteAndDraw(request, report);
+  if (writes && !WriteAndDraw(request, report)) return ExitCode::kOutputNotWritable;
   return failures > 0 ? ExitCode::kPartialInput : ExitCode::kOk;
 }
 

@@ -21,12 +21,26 @@ std::filesystem::path ScriptsFolder() {
   return program.parent_path().parent_path() / "share/trajlo/scripts";
 }
 
+/// By the exit codes that the scripts share.
+DrawOutcome Judge(const std::filesystem::path& script, int status) {
+  constexpr int kAnyFailure = 1, kNotWritable = 5;  // 1: also of Python, if a module is missing
+  if (!WIFEXITED(status)) {
+    return {script.string() + " was ended by signal " + std::to_string(WTERMSIG(status))};
+  }
+  const int code = WEXITSTATUS(status);
+  if (code == 0) return {};
+  if (code == kNotWritable) return {"they cannot be written; what failed is said above", true};
+  const std::string failed = script.string() + " failed; what it said is above";
+  if (code != kAnyFailure) return {failed};
+  return {failed + ". It needs python3-numpy, python3-matplotlib and python3-jinja2"};
+}
+
 }  // namespace
 
-std::string RunDrawScript(const std::string& name, const std::filesystem::path& folder) {
+DrawOutcome RunDrawScript(const std::string& name, const std::filesystem::path& folder) {
   const std::filesystem::path script = ScriptsFolder() / name;
   std::error_code error;
-  if (!std::filesystem::exists(script, error)) return script.string() + " is not there";
+  if (!std::filesystem::exists(script, error)) return {script.string() + " is not there"};
 
   std::string words[] = {script.string(), folder.string()};
   char* argv[] = {words[0].data(), words[1].data(), nullptr};
@@ -37,14 +51,14 @@ std::string RunDrawScript(const std::string& name, const std::filesystem::path& 
   pid_t child = 0;
   const int problem = posix_spawn(&child, words[0].c_str(), &actions, nullptr, argv, environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (problem != 0) return script.string() + " cannot be started: " + std::strerror(problem);
+  if (problem != 0) return {script.string() + " cannot be started: " + std::strerror(problem)};
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR)
-      return std::string("waiting for the script failed: ") + std::strerror(errno);
+    if (errno != EINTR) {
+      return {std::string("waiting for the script failed: ") + std::strerror(errno)};
+    }
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
-  return script.string() + " failed; it needs python3-numpy, python3-matplotlib and python3-jinja2";
+  return Judge(script, status);
 }
 
 }  // namespace trajlo

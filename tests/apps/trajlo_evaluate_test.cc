@@ -350,6 +350,11 @@ TEST_F(TrajloEvaluateTest, TheScriptDrawsTheOutputAndMayBeMissing) {
   EXPECT_EQ(failed.exit_code, 0);
   EXPECT_THAT(failed.err, AllOf(HasSubstr("nothing to draw with"), HasSubstr("no figures")));
   EXPECT_EQ(Json()["estimates"].size(), 1u);
+  // The scripts end so where they cannot write.
+  write_script("echo the disk is full >&2\nexit 5\n");
+  const Outcome full = Call({"good.tum", "truth.tum", Output(), "--overwrite"});
+  EXPECT_EQ(full.exit_code, 5);
+  EXPECT_THAT(full.err, AllOf(HasSubstr("cannot be written"), Not(HasSubstr("numpy"))));
   unsetenv("TRAJLO_SCRIPTS");
 }
 
