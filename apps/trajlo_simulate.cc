@@ -254,6 +254,17 @@ bool Write(const trajlo::simulation::Simulator& simulator,
   return is_whole;
 }
 
+/// A recording without a scan is none.
+void RequireScans(const trajlo::simulation::Simulator& simulator) {
+  for (std::size_t id = 0; id < simulator.scenario().rig.size(); ++id) {
+    if (simulator.ScanCount(static_cast<int>(id)) > 0) continue;
+    std::ostringstream text;
+    text << simulator.scenario().duration_s << " s are too short for a scan of lidar" << id
+         << "; give a larger --duration_s";
+    throw UsageError(text.str());
+  }
+}
+
 ExitCode Simulate(const trajlo::CommandLine& line) try {
   const std::string name = ScenarioName(line);
   if (FLAGS_list) {
@@ -268,6 +279,7 @@ ExitCode Simulate(const trajlo::CommandLine& line) try {
   if (FLAGS_output.empty()) throw UsageError("--output is missing");
   const auto bag = BagFormatFromFlags(scenario);
   const trajlo::simulation::Simulator simulator(scenario);
+  RequireScans(simulator);
   try {
     PrepareOutput(FLAGS_output);
     if (!Write(simulator, bag, trajlo::HandleInterrupts())) return ExitCode::kInterrupted;

@@ -65,7 +65,12 @@ void ProtectResult(const ConvertRequest& request, const RunResult& result) {
   ProtectInput(read, request.output);
 }
 
-void WarnOfResult(const RunResult& result) {
+void WarnOfResult(const fs::path& folder, const RunResult& result) {
+  const std::string shortcoming = RunShortcoming(folder);
+  if (!shortcoming.empty() && !result.lost_at_ns) {
+    std::fprintf(stderr, "trajlo_convert: warning: %s: of trajlo_run, which said: %s\n",
+                 folder.c_str(), shortcoming.c_str());
+  }
   if (!result.unknown_keys.empty()) {
     std::string keys;
     for (const std::string& key : result.unknown_keys) keys += (keys.empty() ? "" : ", ") + key;
@@ -251,7 +256,7 @@ ExitCode WriteBag(const ConvertRequest& request, const RunResult& result,
 ExitCode ExportResult(const ConvertRequest& request, const std::atomic<bool>& stop) {
   const RunResult result = ReadRunResult(request.input, {request.exports.keep_lost});
   ProtectResult(request, result);
-  WarnOfResult(result);
+  WarnOfResult(request.input, result);
   const fs::path extension = request.output.extension();
   if (extension == ".tum" || extension == ".txt") return WritePosesOf(request, result);
   if (extension == ".pcd" || extension == ".ply") return WriteMap(request, result, stop);

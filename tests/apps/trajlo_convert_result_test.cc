@@ -255,6 +255,19 @@ TEST_F(TrajloConvertResult, AnotherRecordingThanThatOfTheRunIsNoticed) {
   EXPECT_FALSE(fs::exists(Path("l.ply")));
 }
 
+TEST_F(TrajloConvertResult, ARunThatDidNotEndWellIsWarnedOf) {
+  fs::copy(Path("result"), Path("killed"), fs::copy_options::recursive);
+  std::string summary = ReadFile(Path("killed/run.json"));
+  const std::string entry = "\"reason\": \"ok\"";
+  ASSERT_NE(summary.find(entry), std::string::npos);
+  summary.replace(summary.find(entry), entry.size(), R"("reason": "running")");
+  WriteFile(Path("killed/run.json"), summary);
+  const Outcome outcome = Convert({Path("killed"), Path("killed.tum")});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("the run was killed, or still goes on"));
+  EXPECT_EQ(Convert({Path("result"), Path("well.tum")}).err, "");
+}
+
 TEST_F(TrajloConvertResult, PosesFromWhereItGotLostAreLeftOutAndTheirPointsToo) {
   fs::copy(Path("result"), Path("lost"), fs::copy_options::recursive);
   std::string summary = ReadFile(Path("lost/run.json"));

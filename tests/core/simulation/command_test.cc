@@ -100,6 +100,12 @@ TEST_F(SimulateCommand, WrongNumbersExitWithOneAndSayWhatIsAllowed) {
             std::string::npos);
 }
 
+TEST_F(SimulateCommand, ARecordingWithoutAScanIsRefused) {
+  const Outcome outcome = Run("hall_os1_16 --duration_s=0.05 --output=" + Out("a"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_FALSE(fs::exists(Out("a")));
+}
+
 TEST_F(SimulateCommand, AnExistingRecordingIsKeptUnlessAskedOtherwise) {
   const std::string run = "--scenario=hall_os1_16 --output=" + Out("a");
   EXPECT_EQ(Run(run + " --duration_s=0.3").exit_code, 0);
