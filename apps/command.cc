@@ -18,6 +18,7 @@
 #include "apps/interrupt.h"
 #include "apps/read_flags.h"
 #include "apps/usage_error.h"
+#include "apps/utf8.h"
 #include "core/config/config_error.h"
 #include "core/io/errors.h"
 #include "core/report/versions.h"
@@ -82,6 +83,7 @@ ExitCode Run(const Command& command, int argc, char** argv) {
   line.command = command.name;
   line.words.assign(argv, argv + argc);
   if (Answer(command, line.words)) return ExitCode::kOk;
+  RequireUtf8(line.words);
   ReturnLargeArrays();
   QuietenCeres();
   line.arguments = ReadFlags(command.name, line.words);

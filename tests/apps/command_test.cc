@@ -56,6 +56,21 @@ TEST(RunCommand, HandsOverArgumentsWithoutFlagsAndReturnsTheCode) {
   EXPECT_THROW(RequireNoArguments(line), UsageError);
 }
 
+TEST(RunCommand, RefusesWordsThatNoResultCouldName) {
+  const Body run = [](const CommandLine&) { return ExitCode::kOk; };
+  for (const char* word : {"fl\xc3\xbc"
+                           "ge",
+                           "\xe2\x80\xa6", "\xf0\x9f\x9a\x80.bag"}) {
+    EXPECT_EQ(RunWith({word}, run).exit_code, 0) << word;
+  }
+  for (const char* word : {"bad\xff\xfename", "\xfc", "cut\xc3", "\xc0\xaf", "\xed\xa0\x80"}) {
+    const Result result = RunWith({word}, run);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("is not UTF-8"));
+  }
+  EXPECT_THAT(RunWith({"bad\xff"}, run).err, HasSubstr("'bad\\xff'"));
+}
+
 TEST(RunCommand, AnswersHelpWithoutRunning) {
   const Body run = [](const CommandLine&) { return ExitCode::kLost; };
   for (const char* help : {"--help", "-help", "-h"}) {
