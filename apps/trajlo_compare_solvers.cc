@@ -2,6 +2,7 @@
 // Compares solvers on the same windows, and on the same recording. See --help.
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -57,7 +58,7 @@ constexpr char kHelp[] = R"(Compares solvers on the same windows, and on the sam
       my_variants.yaml:
         variants:
           - {name: paper, set: "expert.map.levels=1"}
-          - {name: wide, set: "expert.map.levels=1,expert.registration.kernel_m=1.0"}
+          - {name: wide, set: "expert.registration.kernel_in_spreads=0,expert.registration.kernel_m=1.0"}
 
 Flags:
   -o, --output=FOLDER       where the comparison goes
@@ -75,7 +76,7 @@ Flags:
   -h, --help, --version
 
 Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 3 part of the input was
-damaged or in doubt, 4 a run got lost, 5 output not writable, 6 out of memory or a defect of the
+damaged or in doubt, or nothing could be compared, 4 a run got lost, 5 output not writable, 6 out of memory or a defect of the
 program, 130 interrupted; what was compared so far is written.
 )";
 
@@ -86,6 +87,9 @@ std::vector<trajlo::SolverVariant> Choose(const std::vector<trajlo::SolverVarian
   std::vector<trajlo::SolverVariant> chosen;
   for (const std::string& name : only) {
     std::string names;
+    if (std::count(only.begin(), only.end(), name) > 1) {
+      throw UsageError("--only: '" + name + "' appears twice; name each variant once");
+    }
     for (const auto& variant : variants) {
       if (variant.name == name) chosen.push_back(variant);
       names += " " + variant.name;

@@ -130,6 +130,11 @@ ExitCode Judge(const CompareReport& report, bool has_truth, bool was_interrupted
     code = worse;
   };
   if (!read.missing_input.empty()) say(ExitCode::kPartialInput, read.missing_input);
+  if (!HasWindows(report) && !was_interrupted) {
+    say(ExitCode::kPartialInput,
+        "nothing was compared: no window was estimated. The recording, or what input.start_s and "
+        "input.duration_s leave of it, is too short or has no usable points");
+  }
   if (const auto at_ns = report.lockstep_feed.lost_at_ns) {
     say(ExitCode::kLost, "the run in lockstep got lost at " + FormatSeconds(*at_ns) + " s");
   }

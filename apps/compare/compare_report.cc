@@ -109,8 +109,16 @@ CsvRow RowOf(const std::string& name, const Json& values) {
 
 }  // namespace
 
+bool HasWindows(const CompareReport& report) {
+  const auto has_some = [](const LockstepTotals& totals) { return totals.windows() > 0; };
+  return std::any_of(report.lockstep.begin(), report.lockstep.end(), has_some) ||
+         std::any_of(report.free.begin(), report.free.end(),
+                     [](const FreeResult& result) { return result.windows.windows > 0; });
+}
+
 std::string CompareTables(const CompareReport& report) {
   std::string text;
+  if (!HasWindows(report)) return text;
   if (!report.lockstep.empty()) text += LockstepTable(report);
   if (!report.not_in_lockstep.empty()) {
     text += "  by whole runs only:";

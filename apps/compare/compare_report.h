@@ -23,6 +23,8 @@ struct CompareReport {
   bool is_whole = false;  ///< It came to its end: no signal ended it early.
 };
 
+/// Whether any window was solved by all variants, or any run has a window.
+bool HasWindows(const CompareReport& report);
 /// Aligned columns for the screen; times as ratios to the first variant.
 std::string CompareTables(const CompareReport& report);
 /// comparison.json: everything, with the settings of each variant and the versions.

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/comparison/forms/ceres_form_solver.h"
 #include "core/comparison/lockstep_csv.h"
 #include "core/odometry/odometry.h"
 
@@ -13,23 +14,18 @@ std::vector<LockstepTotals> RunLockstep(const CompareRequest& request,
                                         const std::atomic<bool>& stop, Feed* feed) {
   std::vector<LockstepTotals> totals(variants.size());
   LockstepCsvWriter csv(request.output, variants);
-  LockstepSolver* lockstep = nullptr;
-  Odometry odometry(
-      request.config.odometry, [&](const SolverOptions& options, ThreadPool* threads) {
-        auto solver = std::make_unique<LockstepSolver>(variants, request.lockstep_options,
-                                                       MakeWindowSolver(options, threads), threads,
-                                                       [&](const LockstepRecord& record) {
-                                                         csv.Append(record);
-                                                         totals[record.variant].Add(record);
-                                                       });
-        lockstep = solver.get();
-        return solver;
-      });
+  Odometry odometry(request.config.odometry,
+                    [&](const SolverOptions& options, ThreadPool* threads) {
+                      return std::make_unique<LockstepSolver>(
+                          variants, request.lockstep_options,
+                          MakeSolverFactory(request.config.ceres_form)(options, threads), threads,
+                          [&](const LockstepRecord& record) {
+                            csv.Append(record);
+                            totals[record.variant].Add(record);
+                          });
+                    });
   double inlier_share = 0.0;
-  odometry.OnWindow([&](const WindowStatistics& window) {
-    inlier_share = window.InlierShare();
-    lockstep->FinishWindow();
-  });
+  odometry.OnWindow([&](const WindowStatistics& window) { inlier_share = window.InlierShare(); });
   *feed = FeedRecording(request, "lockstep", stop, inlier_share, &odometry);
   csv.Close();
   return totals;

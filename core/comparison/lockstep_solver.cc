@@ -38,14 +38,12 @@ LockstepSolver::LockstepSolver(const std::vector<SolverVariant>& variants,
 }
 
 SolveSummary LockstepSolver::Solve(Window* window) {
-  if (is_first_round_ && window_ % options_.every == 0) Compare(*window);
-  is_first_round_ = false;
+  if (window_end_ns_ != window->EndNs()) {
+    window_end_ns_ = window->EndNs();
+    ++window_;
+    if (window_ % options_.every == 0) Compare(*window);
+  }
   return leading_->Solve(window);
-}
-
-void LockstepSolver::FinishWindow() {
-  ++window_;
-  is_first_round_ = true;
 }
 
 void LockstepSolver::Compare(const Window& window) {

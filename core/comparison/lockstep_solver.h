@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/comparison/solver_variant.h"
@@ -34,7 +36,8 @@ struct LockstepOptions {
 
 /// Solves windows like the solver that it stands for, and lets all variants solve the same windows
 /// on the side: from the same poses, with the same associations and the same prior (those of the
-/// window's first round).
+/// window's first round). A window is another one where it ends at another time: some are taken
+/// back and never reported.
 class LockstepSolver final : public WindowSolver {
  public:
   using OnRecord = std::function<void(const LockstepRecord&)>;
@@ -44,8 +47,6 @@ class LockstepSolver final : public WindowSolver {
                  std::unique_ptr<WindowSolver> leading, ThreadPool* threads, OnRecord on_record);
 
   SolveSummary Solve(Window* window) override;
-  /// The next call of Solve belongs to another window.
-  void FinishWindow();
 
  private:
   void Compare(const Window& window);
@@ -56,8 +57,8 @@ class LockstepSolver final : public WindowSolver {
   std::vector<std::unique_ptr<WindowSolver>> solvers_;
   RegistrationEvaluator evaluator_;
   OnRecord on_record_;
-  int window_ = 0;
-  bool is_first_round_ = true;
+  int window_ = -1;
+  std::optional<std::int64_t> window_end_ns_;
 };
 
 }  // namespace trajlo

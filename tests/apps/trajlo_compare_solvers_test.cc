@@ -124,6 +124,22 @@ TEST_F(TrajloCompareSolversTest, ATruthOfAnotherTimeIsRefusedBeforeTheFirstRun) 
   EXPECT_THAT(outcome.err, HasSubstr("no run could be compared with the truth"));
 }
 
+TEST_F(TrajloCompareSolversTest, WithoutAWindowNothingIsCompared) {
+  RoomRecording room;
+  room.scans = 1;
+  room.Write(temp_ / "one");
+  const Outcome outcome = Call({"--only=gauss_newton,ceres"}, temp_ / "one");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("nothing was compared"));
+  EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(TrajloCompareSolversTest, AVariantIsNamedOnce) {
+  const Outcome outcome = Call({"--only=gauss_newton,ceres,gauss_newton"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("'gauss_newton' appears twice"));
+}
+
 TEST_F(TrajloCompareSolversTest, ErrorsHaveTheDocumentedCodes) {
   const Outcome unknown = Call({"--only=nobody"});
   EXPECT_EQ(unknown.exit_code, 1);

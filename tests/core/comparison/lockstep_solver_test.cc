@@ -29,18 +29,12 @@ LockstepRun RunAll(const std::vector<SolverVariant>& variants, int every) {
   LockstepRun run;
   LockstepOptions options;
   options.every = every;
-  LockstepSolver* lockstep = nullptr;
   Odometry odometry({}, [&](const SolverOptions& solver, ThreadPool* threads) {
-    auto made = std::make_unique<LockstepSolver>(
+    return std::make_unique<LockstepSolver>(
         variants, options, MakeWindowSolver(solver, threads), threads,
         [&](const LockstepRecord& record) { run.records.push_back(record); });
-    lockstep = made.get();
-    return made;
   });
-  odometry.OnWindow([&](const WindowStatistics&) {
-    ++run.windows;
-    lockstep->FinishWindow();
-  });
+  odometry.OnWindow([&](const WindowStatistics&) { ++run.windows; });
   for (int i = 0; i < 8; ++i) odometry.AddScan(world.Sweep(i));
   odometry.Finish();
   run.poses = odometry.trajectory().poses();
@@ -89,6 +83,27 @@ TEST(Lockstep, DoesNotChangeTheRunAndComparesEveryNthWindow) {
   for (std::size_t i = 0; i < all.poses.size(); ++i) {
     EXPECT_EQ(all.poses[i].T_world_body.t, some.poses[i].T_world_body.t);
   }
+}
+
+/// Leaves windows as they are.
+class IdleSolver final : public WindowSolver {
+ public:
+  SolveSummary Solve(Window* /*window*/) override { return {}; }
+};
+
+TEST(Lockstep, AWindowIsAnotherOneByItsEndWhetherTheOneBeforeWasReportedOrNot) {
+  const std::vector<SolverVariant> variants = {Variant("gauss_newton", "solver.kind=gauss_newton")};
+  ThreadPool threads(1);
+  std::vector<int> compared;
+  LockstepSolver solver(variants, {}, std::make_unique<IdleSolver>(), &threads,
+                        [&](const LockstepRecord& record) { compared.push_back(record.window); });
+  Window window;
+  window.segments.resize(1);
+  for (const std::int64_t end_ns : {10, 10, 20, 20, 30}) {
+    window.segments.back().cloud.end_ns = end_ns;
+    solver.Solve(&window);
+  }
+  EXPECT_EQ(compared, (std::vector<int>{0, 1, 2}));
 }
 
 }  // namespace
