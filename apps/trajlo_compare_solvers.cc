@@ -76,8 +76,8 @@ Flags:
   -h, --help, --version
 
 Exit codes: 0 done, 1 wrong usage or configuration, 2 input unreadable, 3 part of the input was
-damaged or in doubt, or nothing could be compared, 4 a run got lost, 5 output not writable, 6 out of memory or a defect of the
-program, 130 interrupted; what was compared so far is written.
+damaged or in doubt, or nothing could be compared, 4 a run got lost, 5 output not writable, 6 out of
+memory or a defect of the program, 130 interrupted; what was compared so far is written.
 )";
 
 /// Those that `only` names, in its order; all if it is empty.
