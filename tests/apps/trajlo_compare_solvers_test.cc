@@ -128,7 +128,8 @@ TEST_F(TrajloCompareSolversTest, WithoutAWindowNothingIsCompared) {
   RoomRecording room;
   room.scans = 1;
   room.Write(temp_ / "one");
-  const Outcome outcome = Call({"--only=gauss_newton,ceres", "--set=segmenter.interval_s=0.2"}, temp_ / "one");
+  const Outcome outcome =
+      Call({"--only=gauss_newton,ceres", "--set=segmenter.interval_s=0.2"}, temp_ / "one");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("nothing was compared"));
   EXPECT_EQ(outcome.out, "");
