@@ -1,31 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "apps/utf8.h"
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "apps/usage_error.h"
 #include "core/io/format_text.h"
 
 namespace trajlo {
 namespace {
-
-/// How many bytes a character has that begins with this one; 0: none does.
-std::size_t LengthOf(unsigned char first) {
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first < 0xE0) return 2;
-  if (first >= 0xE0 && first < 0xF0) return 3;
-  return first >= 0xF0 && first < 0xF5 ? 4 : 0;
-}
-
-bool IsContinuation(char c) { return (static_cast<unsigned char>(c) >> 6) == 2; }
-
-/// The range of the second byte keeps out surrogates, longer forms, and what is beyond Unicode.
-bool IsSecond(unsigned char first, unsigned char second) {
-  if (first == 0xE0) return second >= 0xA0;
-  if (first == 0xED) return second < 0xA0;
-  if (first == 0xF0) return second >= 0x90;
-  return first != 0xF4 || second < 0x90;
-}
 
 std::string Printable(const std::string& text) {
   std::string printable;
@@ -39,17 +21,12 @@ std::string Printable(const std::string& text) {
 }  // namespace
 
 bool IsUtf8(const std::string& text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto first = static_cast<unsigned char>(text[i]);
-    const std::size_t length = LengthOf(first);
-    if (length == 0 || i + length > text.size()) return false;
-    const auto rest = text.begin() + static_cast<std::ptrdiff_t>(i);
-    const auto end = rest + static_cast<std::ptrdiff_t>(length);
-    if (!std::all_of(rest + 1, end, IsContinuation)) return false;
-    if (length > 1 && !IsSecond(first, static_cast<unsigned char>(text[i + 1]))) return false;
-    i += length;
+  try {
+    nlohmann::json(text).dump();
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
   }
-  return true;
 }
 
 void RequireUtf8(const std::vector<std::string>& words) {

@@ -124,9 +124,8 @@ std::string CoveredDifferently(const EvaluationReport& report) {
   }
   if (most - least <= kAlike) return "";
   return FormatText(
-      "no best is marked: the estimates cover different parts of the ground truth (%.1f to %.1f "
-      "%%), "
-      "and errors over different parts do not compare",
+      "no best is marked: the estimates cover different shares of the ground truth (%.1f to %.1f "
+      "%%), and errors over different parts do not compare",
       100.0 * least, 100.0 * most);
 }
 

@@ -122,13 +122,12 @@ RotationDoubt JudgeRotations(const std::vector<PosePair>& aligned, const Alignme
         "w first%s",
         constant_deg, in_body.rest_deg,
         constant_deg > kMirroredDeg
-            ? ", or left-handed axes: the mirror image of a flat path is it "
-              "turned over"
+            ? ", or left-handed axes: a flat path in a mirror is the path turned over"
             : ""));
   } else if (by_positions && in_world.rms_deg > kMirroredDeg) {
     doubt.warnings.push_back(FormatText(
         "positions fit where the attitudes differ by nearly half a turn (%.3g deg): the ground "
-        "truth may have left-handed axes, since the mirror image of a flat path is it turned over",
+        "truth may have left-handed axes, since a flat path in a mirror is the path turned over",
         in_world.rms_deg));
   }
   return doubt;

@@ -62,8 +62,7 @@ TrajectoryFormat Detect(const std::filesystem::path& path, std::string_view text
   throw InputError(
       path, where + " has " + std::to_string(columns) + " columns",
       std::string("Trajectories have 8 (TUM: stamp x y z qx qy qz qw), 4 (stamp x y z) or 12 "
-                  "(KITTI: the pose's "
-                  "first three rows), or are EuRoC's csv.") +
+                  "(KITTI: the pose's first three rows), or are EuRoC's csv.") +
           advice);
 }
 

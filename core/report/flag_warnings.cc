@@ -41,8 +41,11 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
                        (gap.control_poses == 1 ? " stretch" : " stretches") +
                        "; the motion in between is unknown (flag gap in flags.csv)");
   }
-  warn_of_share("no_points",
-                " hardly any point lay on the map; the motion prior carries the poses there");
+  // Of a recording without a window the message says more.
+  if (!summary.too_short) {
+    warn_of_share("no_points",
+                  " hardly any point lay on the map; the motion prior carries the poses there");
+  }
   const auto& axes = summary.windows.weak_axes;
   if (!axes.empty()) {
     const auto weakest = std::max_element(

@@ -26,7 +26,7 @@ def of_shares(estimates):
     shares = [share for share in shares if share is not None]
     if not shares or max(shares) - min(shares) <= ALIKE:
         return []
-    return [f"The estimates cover different parts of the truth ({100 * min(shares):.1f} to "
+    return [f"The estimates cover different shares of the truth ({100 * min(shares):.1f} to "
             f"{100 * max(shares):.1f} %), so none is called the best."]
 
 

@@ -44,7 +44,7 @@ class EvaluationPageTest(FolderTest):
         estimates[0].metrics["ate"]["translation_m"].update(rmse=0.25, max=1.5)
         said = evaluation_words.conclusions(estimates)
         estimates[1].metrics["completeness"] = 0.5 * estimates[0].metrics["completeness"]
-        self.assertIn("cover different parts of the truth", evaluation_words.conclusions(estimates)[-1])
+        self.assertIn("cover different shares of the truth", evaluation_words.conclusions(estimates)[-1])
         self.assertRegex(said[0], r"better is .* cm from the truth .* over a path of \d+")
         self.assertIn("worse is 25.0 cm from the truth (root mean square after alignment; at most "
                       "1.5 m)", said[1])

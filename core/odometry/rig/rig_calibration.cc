@@ -24,8 +24,9 @@ constexpr double kLeverArm_m = 5.0;
 constexpr double kEnoughPlaces = 10.0;
 /// Of the points of a LiDAR, so many must have planes to say anything; ...
 constexpr double kSayingSo = 0.02;
-/// ... and of these, this share of the reference's must lie on them. A LiDAR at the right place, or
-/// found up to 20 degrees off, has 0.97 or more; one that is not found has at most 0.65.
+/// ... and of these, this share of the reference's must lie on them. In a simulated
+/// hall, LiDARs at the right place, or found from up to 20 degrees off, have 0.97; those that are
+/// not found have at most 0.65.
 constexpr double kAsReference = 0.8;
 /// Holds the pose where the points of a segment do not.
 constexpr double kPoseInformation = 1.0;

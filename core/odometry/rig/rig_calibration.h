@@ -12,7 +12,7 @@
 
 namespace trajlo {
 
-/// What the map says about where a LiDAR is.
+/// What the map says about where a LiDAR is. From kNone on, its points enter the map.
 enum class RigEvidence {
   kContradicted,  ///< Its points lie beside the map.
   kNotYet,        ///< It has not seen the map from enough places.

@@ -203,9 +203,11 @@ TEST(Config, ContradictionsNameBothKeysAndTheirValues) {
   for (const char* settings :
        {"segmenter.interval_s=0.5", "expert.segmenter.max_gap_s=0.02",
         "expert.map.min_point_spacing_m=0.9", "map.radius_m=2,map.voxel_size_m=3",
-        "expert.map.plane.neighbors=3"}) {
+        "expert.map.plane.neighbors=3", "registration.sigma_m=0.31"}) {
     EXPECT_NE(problem(settings), "") << settings;
   }
+  // Only a kernel that is fitted lies between the two.
+  EXPECT_EQ(problem("registration.sigma_m=0.31,expert.registration.kernel_in_spreads=0"), "");
 }
 
 TEST(EditDistance, CountsEdits) {

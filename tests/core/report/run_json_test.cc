@@ -131,6 +131,22 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
             "a part of the file is missing or broken, and the clocks of the LiDARs may differ");
 }
 
+TEST(RunSummary, SaysThatNothingConfirmsAShortRecordingOrThatALidarDoesNotFit) {
+  RunSummary s;
+  s.too_short = true;
+  EXPECT_THAT(s.MissingInput(), HasSubstr("too short for a window"));
+  s.too_short = false;
+  s.rig.resize(2);
+  s.rig[1].lidar = 1;
+  for (const RigEvidence fits :
+       {RigEvidence::kNotYet, RigEvidence::kNone, RigEvidence::kConfirmed}) {
+    s.rig[1].evidence = fits;
+    EXPECT_EQ(s.MissingInput(), "");
+  }
+  s.rig[1].evidence = RigEvidence::kContradicted;
+  EXPECT_THAT(s.MissingInput(), HasSubstr("LiDAR 1 does not fit the others"));
+}
+
 TEST(RunSummary, CountsOddStampsByReason) {
   RunSummary s;
   EXPECT_EQ(s.OddStamps(), "");
