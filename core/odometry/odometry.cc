@@ -85,6 +85,7 @@ void Odometry::Step(SegmentCloud cloud) {
   statistics.restless = RestlessStep(window_.segments.back().cloud);
   AssociateAndSolve(&statistics);
   if (doubt_.IsContradicted(statistics.agreement)) LookAgain(predicted, &statistics);
+  LeaveOutUnsupported(predicted, &statistics);
   statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
   if (IsBlind()) {
     TakeBackAndSearch(predicted);

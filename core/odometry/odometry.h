@@ -96,6 +96,7 @@ class Odometry {
   void TakeBackAndSearch(const std::vector<SE3>& predicted);
   void NoteSupport();
   void AssociateAndSolve(WindowStatistics* statistics);
+  void LeaveOutUnsupported(const std::vector<SE3>& predicted, WindowStatistics* statistics);
   void LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics);
   Eigen::Vector3d TurnAxis() const;
   void LookAround(double agreement);

@@ -12,6 +12,7 @@
 #include "core/odometry/segments/join_segments.h"
 #include "core/odometry/start/initial_motion.h"
 #include "core/odometry/start/relocalization.h"
+#include "core/odometry/stopwatch.h"
 #include "core/odometry/weights/innovation.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/push_segment.h"
@@ -34,8 +35,8 @@ constexpr double kPatience = 0.1;
 
 /// The points contradict the map where the motion prior led them: the body began to turn as the
 /// prior did not foresee. (By some degrees within a segment; no body is flung so far aside.) They
-/// look again while its attitude may be anything near. If they agree better then, the prior
-/// follows.
+/// look again while its attitude may be anything near. If they agree better then, and hold it, the
+/// prior follows. (A hand before the LiDAR has few points, which agree with whatever is near.)
 void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics) {
   Window first = window_;
   window_.SetPoses(predicted);
@@ -50,7 +51,8 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
   again.milliseconds_associate = statistics->milliseconds_associate;
   again.milliseconds_solve = statistics->milliseconds_solve;
   AssociateAndSolve(&again);
-  if (again.is_finite && again.agreement > statistics->agreement) {
+  const bool is_better = again.is_finite && again.agreement > statistics->agreement;
+  if (is_better && !IsUnsupported(window_, newest)) {
     motion_prior_.Apply(&window_);
     motion_prior_.Follow(MeasureInnovation(window_, predicted.back()));
     motion_prior_.Apply(&window_);
@@ -60,6 +62,20 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
     statistics->milliseconds_associate = again.milliseconds_associate;
     statistics->milliseconds_solve = again.milliseconds_solve;
   }
+}
+
+/// Solves the window again without the points that do not hold their segments, from the prediction:
+/// what is left agrees with it. (Before the points ever held the body, there is none to trust.)
+void Odometry::LeaveOutUnsupported(const std::vector<SE3>& predicted, WindowStatistics* s) {
+  if (!s->is_finite || !support_.was_supported() || !SilenceUnsupported(&window_)) return;
+  Stopwatch watch;
+  window_.SetPoses(predicted);
+  for (Segment& segment : window_.segments) segment.linearization.reset();
+  const int last_round = s->rounds + options_.solver.max_rounds;
+  do {
+    s->Add(solver_->Solve(&window_), options_.solver);
+  } while (s->rounds < last_round && !s->has_converged && s->is_finite);
+  s->milliseconds_solve += watch.Milliseconds();
 }
 
 /// About which the body may have turned most while its points did not hold it. A body on a rope

@@ -30,6 +30,19 @@ bool IsUnsupported(const Window& window, const Segment& segment) {
   return on_plane < kHandful || on_plane < kAgreeing * static_cast<double>(segment.points.size());
 }
 
+bool SilenceUnsupported(Window* window) {
+  bool has_silenced = false;
+  for (Segment& segment : window->segments) {
+    if (!IsUnsupported(*window, segment)) continue;
+    for (RegistrationPoint& point : segment.points) {
+      has_silenced = has_silenced || point.weight > 0.0;
+      point.weight = 0.0;
+    }
+    segment.linearization.reset();
+  }
+  return has_silenced;
+}
+
 bool SupportWatch::IsBlind(std::int64_t t_ns, const Vector6d& density) const {
   if (!was_supported_) return false;
   return MayHaveMoved(density, Seconds(t_ns - supported_until_ns_), kBridged_m, kBridged_rad);

@@ -15,6 +15,11 @@ namespace trajlo {
 /// silent. Points without a plane say nothing: they may see a new part of the world.
 bool IsUnsupported(const Window& window, const Segment& segment);
 
+/// Takes the weight from the points of such segments. A hand before the LiDAR moves with the body:
+/// its points would hold the body still. Returns whether any of them had one. A point has its
+/// weight again when it asks the map for its plane again.
+bool SilenceUnsupported(Window* window);
+
 /// A point within this distance is on its plane: the error of a prediction after a short pause.
 constexpr double kOnPlane_m = 0.2;
 

@@ -72,7 +72,7 @@ std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window
     const SegmentMotion motion(window.Pose(k), segment.T_world_end);
     for (const RegistrationPoint& point : segment.points) {
       std::size_t& passes = to_pass[point.axis];
-      if (passes-- > 0) continue;
+      if (point.weight == 0.0 || passes-- > 0) continue;
       passes = stride[point.axis] - 1;
       const double distance_m = point.DistanceToPlane(motion.ToWorld(point.alpha, point.p_body_m));
       distances[point.axis].emplace_back(std::sqrt(point.weight) * std::abs(distance_m),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A hand before the LiDAR of a walker, for a fraction of a second: when it sees again, the place is
-// still right. That must show soon. While it is in doubt the map does not grow, and the walker is
-// out of it within seconds.
+// A hand before the LiDAR of a walker, for a fraction of a second. It does not drag the body along,
+// though it moves with the LiDAR. When that sees again, the place is still right, which must show
+// soon: while it is in doubt the map does not grow, and the walker is out of it within seconds.
 #include <gtest/gtest.h>
 
 #include "core/scans/scan_times.h"
@@ -25,7 +25,7 @@ TEST_P(ShortCovers, AreFollowedByADoubtThatEndsSoon) {
   scenario.faults.cover_s = GetParam().duration_s;
   const testing::SimulatedRun run(scenario);
   EXPECT_FALSE(run.lost_at_ns);
-  EXPECT_LT(run.LargestError_m(), 0.5);
+  EXPECT_LT(run.LargestError_m(), 0.2);
   const double end_s = GetParam().from_s + GetParam().duration_s;
   for (std::size_t i = 0; i < run.poses.size(); ++i) {
     if (run.Time_s(i) < end_s + 1.0) continue;

@@ -44,6 +44,17 @@ TEST(Support, AHandfulOfPointsHoldsNothing) {
   EXPECT_TRUE(IsNewestUnsupported(Standing(0, 0, 0)));
 }
 
+TEST(Support, PointsOfSegmentsThatTheyDoNotHoldLoseTheirWeight) {
+  Window window = Standing(1000, 300, 400);
+  Window held = Standing(1000, 400, 300);
+  window.segments.push_back(held.segments[0]);
+  EXPECT_TRUE(SilenceUnsupported(&window));
+  for (const RegistrationPoint& point : window.segments[0].points) EXPECT_EQ(point.weight, 0.0);
+  for (const RegistrationPoint& point : window.segments[1].points) EXPECT_EQ(point.weight, 1.0);
+  EXPECT_FALSE(SilenceUnsupported(&window)) << "they have none left";
+  EXPECT_FALSE(SilenceUnsupported(&held));
+}
+
 TEST(Support, TheWatchIsBlindWhenThePredictionIsTooUncertainToStartFrom) {
   SupportWatch watch;
   Vector6d density;
