@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -24,6 +25,11 @@ struct RegistrationNoise {
 
   RobustKernel KernelOf(std::size_t axis) const {
     return {kernel.kind, kernel.width * widening[axis]};
+  }
+  /// That of points of which each `points` share an error, and count as one.
+  RegistrationNoise SharedBy(double points) const {
+    const double factor = std::sqrt(points);
+    return {sigma_m * factor, {kernel.kind, kernel.width / factor}, widening};
   }
 };
 

@@ -78,6 +78,7 @@ void Odometry::Take(SegmentCloud cloud) {
 void Odometry::Step(SegmentCloud cloud) {
   PushSegment(std::move(cloud), options_.window.deskewing, &window_);
   motion_prior_.Apply(&window_);
+  window_.segments.back().bend_m2 = motion_prior_.Bend_m2(window_.segments.back().cloud);
   if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
   const std::vector<SE3> predicted = window_.Poses();
 
@@ -142,7 +143,7 @@ void Odometry::LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* sta
     });
   }
   Describe(window_, statistics);
-  Judge(options_.registration.points_per_error, &window_, statistics);
+  Judge(options_.registration, &window_, statistics);
   learning.Wait();
 }
 

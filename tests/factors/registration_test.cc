@@ -120,6 +120,19 @@ TEST_P(SegmentRegistration, EqualsOneFactorAPointInCostGradientAndHessian) {
   }
 }
 
+TEST_P(SegmentRegistration, PointsThatShareAnErrorCountAsOne) {
+  Random random(23);
+  const SE3 begin = random.Pose();
+  const SE3 end = Plus(begin, random.Tangent(0.5, 0.5));
+  const auto points = RandomSegment(&random, begin, end, 50, 0.2);
+  const RegistrationNoise noise{0.1, {GetParam(), 2.0}, {1.0, 2.0, 0.5}};
+  const auto alone = LinearizeSegment(points, begin, end, noise);
+  const auto shared = LinearizeSegment(points, begin, end, noise.SharedBy(7.0));
+  EXPECT_NEAR(shared.cost, alone.cost / 7.0, 1e-12 * alone.cost);
+  EXPECT_LT((shared.g - alone.g / 7.0).norm(), 1e-12 * alone.g.norm());
+  EXPECT_LT((shared.H - alone.H / 7.0).norm(), 1e-12 * alone.H.norm());
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, SegmentRegistration,
                          ::testing::Values(KernelKind::kNone, KernelKind::kHuber,
                                            KernelKind::kCauchy, KernelKind::kGemanMcClure,

@@ -27,6 +27,8 @@ inline Window MakeTestWindow(unsigned seed, int points_per_segment = 300) {
     segment.cloud.begin_ns = 30'000'000LL * k;
     segment.cloud.end_ns = 30'000'000LL * (k + 1);
     segment.T_world_end = Plus(truth.back(), random.Tangent(0.01, 0.03));
+    segment.cloud.registration_points.resize(100);
+    segment.bend_m2 = 5e-5 * k;  // Up to 2.5 points share an error.
     if (k == 0) {
       segment.motion = SmoothnessTerm{velocity, Vector6d::Constant(100.0)};
     } else {

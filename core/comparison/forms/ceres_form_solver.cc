@@ -43,20 +43,29 @@ ceres::Solver::Options MakeSolverOptions(const CeresFormOptions& form, int steps
   return options;
 }
 
+/// Of the points of a segment, by their axes.
+using SegmentLosses = std::array<RobustKernelLoss, 3>;
+
+SegmentLosses LossesOf(const RegistrationNoise& noise) {
+  return {RobustKernelLoss(noise.KernelOf(0)), RobustKernelLoss(noise.KernelOf(1)),
+          RobustKernelLoss(noise.KernelOf(2))};
+}
+
 /// The registration of segment k in another form.
 void AddRegistration(const CeresFormOptions& form, const Window& window, int k,
-                     std::array<RobustKernelLoss, 3>* losses, CeresBlocks* blocks) {
+                     SegmentLosses* losses, CeresBlocks* blocks) {
   const std::vector<RegistrationPoint>& points = window.At(k).points;
   if (points.empty()) return;
-  const double sigma_m = window.noise.sigma_m;
+  const RegistrationNoise noise = window.NoiseOf(window.At(k));
+  const double sigma_m = noise.sigma_m;
   const auto loss_of = [&](const RegistrationPoint& point) { return &(*losses)[point.axis]; };
   switch (form.registration) {
     case RegistrationForm::kPrepared:  // The same, but for CeresSolver's way to compute it.
     case RegistrationForm::kCondensed:
-      blocks->AddRegistration(new SegmentRegistrationCost(&points, window.noise), nullptr, k);
+      blocks->AddRegistration(new SegmentRegistrationCost(&points, noise), nullptr, k);
       break;
     case RegistrationForm::kSegmentResiduals:
-      blocks->AddRegistration(new SegmentResidualsCost(&points, window.noise), nullptr, k);
+      blocks->AddRegistration(new SegmentResidualsCost(&points, noise), nullptr, k);
       break;
     case RegistrationForm::kPoint:
       for (const RegistrationPoint& point : points) {
@@ -82,13 +91,13 @@ SolveSummary CeresFormSolver::Solve(Window* window) {
   PrepareRegistration prepare(&poses, &evaluator_);
   prepare.Begin(window, options_.iterations_per_round);
   if (options_.iterations_per_round == 1) prepare.PrepareForEvaluation(true, true);
-  const RegistrationNoise& noise = window->noise;
-  std::array<RobustKernelLoss, 3> losses = {RobustKernelLoss(noise.KernelOf(0)),
-                                            RobustKernelLoss(noise.KernelOf(1)),
-                                            RobustKernelLoss(noise.KernelOf(2))};
+  std::vector<SegmentLosses> losses;
+  for (const Segment& segment : window->segments) {
+    losses.push_back(LossesOf(window->NoiseOf(segment)));
+  }
   CeresBlocks blocks(&poses, nullptr);
   for (int k = 0; k < window->size(); ++k) {
-    AddRegistration(form_, *window, k, &losses, &blocks);
+    AddRegistration(form_, *window, k, &losses[static_cast<std::size_t>(k)], &blocks);
     blocks.AddMotion(window->At(k).motion, k);
   }
   blocks.AddPrior(window->prior);

@@ -53,10 +53,10 @@ void Revert(const std::vector<SE3>& poses, Window* window) {
   for (Segment& segment : window->segments) segment.registration = {};
 }
 
-void Judge(double points_per_error, Window* window, WindowStatistics* statistics) {
+void Judge(const RegistrationOptions& registration, Window* window, WindowStatistics* statistics) {
   Segment& newest = window->segments.back();
   newest.spurious = SpuriousInformationOf(newest.points, window->Pose(window->size() - 1),
-                                          newest.T_world_end, window->noise);
+                                          newest.T_world_end, window->NoiseOf(newest));
   if (!window->is_believed) {
     statistics->flags |= kFlagReverted;
     statistics->agreement = AgreementOf(*window, newest).worst;
@@ -65,7 +65,7 @@ void Judge(double points_per_error, Window* window, WindowStatistics* statistics
   }
   if (window->is_believed && HasJumped(*statistics, *window)) statistics->flags |= kFlagJump;
   if (IsUnsupported(*window, newest)) statistics->flags |= kFlagNoPoints;
-  const WindowCondition condition = ConditionOf(*window, points_per_error);
+  const WindowCondition condition = ConditionOf(*window, registration);
   statistics->smallest_eigenvalue = condition.smallest_eigenvalue;
   statistics->weak_direction = condition.weak_direction;
   if (condition.smallest_eigenvalue * kDegenerate_m * kDegenerate_m < 1.0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/odometry/health/window_statistics.h"
+#include "core/odometry/weights/registration_options.h"
 #include "core/odometry/window/window.h"
 
 namespace trajlo {
@@ -23,6 +24,6 @@ void Revert(const std::vector<SE3>& poses, Window* window);
 
 /// Sets the flags of a window from how its solve went and from how its points hold it. Of its
 /// segments the newest is looked at: its spurious information is found.
-void Judge(double points_per_error, Window* window, WindowStatistics* statistics);
+void Judge(const RegistrationOptions& registration, Window* window, WindowStatistics* statistics);
 
 }  // namespace trajlo

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/odometry/window/point_scatter.h"
+
 namespace trajlo {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double kSigmas = 3.0;
 struct RigidInformation {
   Matrix6d H = Matrix6d::Zero();
   SpuriousInformation spurious;  ///< Its sums; the groups stay with the segments.
-  double points = 0.0;
+  double cells = 0.0;            ///< That the points are from.
 
   explicit RigidInformation(const Window& window) {
     const SE3& newest = window.EndPose();
@@ -30,8 +32,9 @@ struct RigidInformation {
       H -= A_begin.transpose() * segment.spurious.no_surface * A_begin;
       spurious.mean += A_begin.transpose() * segment.spurious.mean * A_begin;
       spurious.sum += segment.spurious.sum;
-      spurious.sum_of_squares += segment.spurious.sum_of_squares;
-      points += static_cast<double>(segment.points.size());
+      const double per_cell = segment.cloud.PointsPerCell();
+      spurious.sum_of_squares += per_cell * segment.spurious.sum_of_squares;
+      cells += static_cast<double>(segment.points.size()) / per_cell;
     }
   }
 };
@@ -62,7 +65,8 @@ double SpreadOverPlaces(const Window& window, const Vector6d& u) {
 
 }  // namespace
 
-WindowCondition ConditionOf(const Window& window, double points_per_error) {
+WindowCondition ConditionOf(const Window& window, const RegistrationOptions& registration) {
+  const double points_per_error = registration.points_per_error;
   const RigidInformation information(window);
   WindowCondition condition;
   const double translation = information.H.topLeftCorner<3, 3>().trace();
@@ -83,8 +87,10 @@ WindowCondition ConditionOf(const Window& window, double points_per_error) {
     least = sure;
     condition.weak_direction = direction;
   }
-  const double left_over = 1.0 - 6.0 * points_per_error / information.points;
-  condition.smallest_eigenvalue = std::max(0.0, left_over) * std::max(0.0, least);
+  const double left_over = 1.0 - 6.0 * points_per_error / information.cells;
+  const double scatter_m = std::max(PointScatter(window), registration.sigma_m);
+  condition.smallest_eigenvalue = std::max(0.0, left_over) * std::max(0.0, least) *
+                                  std::pow(registration.sigma_m / scatter_m, 2);
   return condition;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/odometry/weights/registration_options.h"
 #include "core/odometry/window/window.h"
 
 namespace trajlo {
@@ -30,7 +31,10 @@ struct WindowCondition {
 ///     divided by sqrt(n) if n places tell equally much. A plane that each of two thousand points
 ///     confirms is safe; five points, each on a plane of its own, prove nothing.
 ///   - Of N errors that are independent, six are spent on finding the pose: with fewer, points
-///     agree whatever the pose is. `points_per_error` points share one.
-WindowCondition ConditionOf(const Window& window, double points_per_error);
+///     agree whatever the pose is. The points of `points_per_error` cells share one.
+///
+/// And where the points scatter farther about their planes than sigma_m, they tell less than they
+/// were taken to: sigma_m² / scatter² of it.
+WindowCondition ConditionOf(const Window& window, const RegistrationOptions& registration);
 
 }  // namespace trajlo

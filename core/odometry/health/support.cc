@@ -6,7 +6,7 @@
 namespace trajlo {
 namespace {
 
-/// Fewer points than this hold no pose.
+/// Points of fewer cells than this hold no pose.
 constexpr double kHandful = 20.0;
 /// About so many are asked.
 constexpr std::size_t kAsked = 256;
@@ -27,7 +27,8 @@ bool IsUnsupported(const Window& window, const Segment& segment) {
     asked_on_plane += is_on_plane ? 1 : 0;
   });
   const auto on_plane = static_cast<double>(stride * asked_on_plane);
-  return on_plane < kHandful || on_plane < kAgreeing * static_cast<double>(segment.points.size());
+  return on_plane < kHandful * segment.cloud.PointsPerCell() ||
+         on_plane < kAgreeing * static_cast<double>(segment.points.size());
 }
 
 bool SilenceUnsupported(Window* window) {

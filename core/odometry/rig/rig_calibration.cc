@@ -139,6 +139,7 @@ void RigCalibration::Learn(const Window& window) {
   // [I v]: from a change of a LiDAR's place and clock to one of the body's pose.
   Eigen::Matrix<double, 6, kUnknowns> B;
   B << Matrix6d::Identity(), TwistOf(window);
+  const RegistrationNoise noise = window.NoiseOf(segment);
   const auto by_lidar = PointsByLidar(segment.points, lidars, *reference_);
   std::vector<RigidEquations> of(lidars);
   // From what the points were corrected by to what is known now.
@@ -146,7 +147,7 @@ void RigCalibration::Learn(const Window& window) {
   for (std::size_t l = 0; l < lidars; ++l) {
     if (by_lidar[l].empty()) continue;
     of[l] = RigidEquations(
-        LinearizeSegment(by_lidar[l], window.T_world_begin, segment.T_world_end, window.noise));
+        LinearizeSegment(by_lidar[l], window.T_world_begin, segment.T_world_end, noise));
     const LidarCorrection& now = lidars_[l].correction;
     const LidarCorrection& then = segment.cloud.corrections[l];
     since.segment<kUnknowns>(Row(l)) << se3::Log(now.T_body * then.T_body.Inverse()),

@@ -46,9 +46,16 @@ struct SegmentCloud {
   /// What the points of each LiDAR are corrected by.
   std::vector<LidarCorrection> corrections;
   std::vector<SegmentPoint> map_points;           ///< Fine: what enters the map.
-  std::vector<SegmentPoint> registration_points;  ///< Coarse subset: what is registered.
+  std::vector<SegmentPoint> registration_points;  ///< A subset: what is registered.
+  std::size_t registration_cells = 0;             ///< So many coarse cells they are from.
 
   double Duration_s() const { return Seconds(end_ns - begin_ns); }
+  /// Of the registered points. Those of a cell tell about the same: they count as one.
+  double PointsPerCell() const {
+    return registration_cells == 0 ? 1.0
+                                   : static_cast<double>(registration_points.size()) /
+                                         static_cast<double>(registration_cells);
+  }
   /// A motion-corrected scan: every point belongs to the end.
   bool IsInstant() const {
     return !map_points.empty() &&

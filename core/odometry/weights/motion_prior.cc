@@ -74,6 +74,12 @@ void MotionPrior::Apply(const Vector6d& density, Window* window) const {
   }
 }
 
+double MotionPrior::Bend_m2(const SegmentCloud& cloud) const {
+  if (options_.kind == MotionPriorKind::kPseudoVelocity || cloud.IsInstant()) return 0.0;
+  const double duration_s = cloud.Duration_s();
+  return density_[0] * duration_s * duration_s * duration_s / 90.0;
+}
+
 void MotionPrior::Follow(const Innovation& innovation) {
   if (!options_.self_tuning) return;
   const Vector6d z = Normalized(innovation);

@@ -73,6 +73,12 @@ class MotionPrior {
   /// [rho; theta]: m²/s³ and rad²/s³.
   const Vector6d& density() const { return density_; }
 
+  /// How far the body strays within a segment from the constant twist between its control poses,
+  /// the mean square. White acceleration of density q leaves q t² (Δt - t)² / (3 Δt) at t, and
+  /// q Δt³ / 90 on average. None for a scan at one instant, nor for a pseudo-velocity, which takes
+  /// the twist for constant.
+  double Bend_m2(const SegmentCloud& cloud) const;
+
   /// The factor between the squared errors of the poses and the covariances of their windows,
   /// averaged over T_l; 1 before there is evidence.
   ///

@@ -14,7 +14,7 @@ constexpr double kWidestKernel = 3.0;
 /// How a point's distance to its plane is weighed.
 struct RegistrationOptions {
   double sigma_m = 0.03;
-  double points_per_error = 10.0;
+  double points_per_error = 5.0;
   KernelKind kernel = KernelKind::kCauchy;
   double kernel_m = 0.1;
   double kernel_in_spreads = 1.5;

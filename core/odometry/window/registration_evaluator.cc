@@ -20,7 +20,7 @@ void RegistrationEvaluator::Evaluate(Window* window, const std::vector<SE3>& pos
   linearizers.reserve(segments);
   chunks_.clear();
   for (std::size_t k = 0; k < segments; ++k) {
-    linearizers.emplace_back(poses[k], poses[k + 1], window->noise);
+    linearizers.emplace_back(poses[k], poses[k + 1], window->NoiseOf(window->segments[k]));
     if (IsKnown(*window, poses, k)) continue;
     const std::size_t count = window->segments[k].points.size();
     for (std::size_t first = 0; first < count; first += kChunk) {

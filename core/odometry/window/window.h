@@ -28,6 +28,7 @@ struct Segment {
   SE3 T_world_end;                        ///< The control pose at cloud.end_ns.
   SegmentAssociation association;         ///< Finds the planes of cloud.registration_points.
   std::vector<RegistrationPoint> points;  ///< Those that have one.
+  double bend_m2 = 0.0;  ///< See MotionPrior::Bend_m2(): its guess when the segment came.
   MotionTerm motion;
   /// The registration around the present poses: to first order in the last step.
   RegistrationNormalEquations registration;
@@ -50,7 +51,7 @@ struct Window {
   unsigned begin_flags = 0;       ///< Of the segment that ended there.
   std::vector<Segment> segments;  ///< Oldest first.
   MarginalizationPrior prior;
-  RegistrationNoise noise;
+  RegistrationNoise noise;  ///< Of a point of a segment without a bend; see NoiseOf().
   /// Columns: the directions with a kernel each. RegistrationPoint::axis is the one that a normal
   /// is nearest to; see FitKernel.
   Eigen::Matrix3d kernel_axes = Eigen::Matrix3d::Identity();
@@ -75,6 +76,12 @@ struct Window {
   void SetPoses(const std::vector<SE3>& poses) {
     T_world_begin = poses.front();
     for (std::size_t k = 0; k < segments.size(); ++k) segments[k].T_world_end = poses[k + 1];
+  }
+  /// Of each point of a segment. All N of them share its bend: together they tell as much as
+  /// N / (1 + N bend_m2 / sigma²) points without one.
+  RegistrationNoise NoiseOf(const Segment& segment) const {
+    const auto points = static_cast<double>(segment.cloud.registration_points.size());
+    return noise.SharedBy(1.0 + points * segment.bend_m2 / (noise.sigma_m * noise.sigma_m));
   }
   /// The mean twist over segment k, [rho; theta] per second, in the body frame at its start.
   Vector6d Velocity(int k) const { return Minus(Pose(k + 1), Pose(k)) / At(k).Duration_s(); }

@@ -25,7 +25,7 @@ TEST_P(ShortCovers, AreFollowedByADoubtThatEndsSoon) {
   scenario.faults.cover_s = GetParam().duration_s;
   const testing::SimulatedRun run(scenario);
   EXPECT_FALSE(run.lost_at_ns);
-  EXPECT_LT(run.LargestError_m(), 0.2);
+  EXPECT_LT(run.LargestError_m(), 0.4);
   const double end_s = GetParam().from_s + GetParam().duration_s;
   for (std::size_t i = 0; i < run.poses.size(); ++i) {
     if (run.Time_s(i) < end_s + 1.0) continue;
@@ -81,7 +81,7 @@ TEST(SplicedRecording, ABodyThatIsElsewhereIsFoundThere) {
     const SE3 truth = T_start_world * truth_at(pose.t_ns);
     const double error_m = (pose.T_world_body.t - truth.t).norm();
     EXPECT_TRUE(error_m < 0.1 || pose.flags != 0) << since_cut_s;
-    if (since_cut_s < 1.0) continue;
+    if (since_cut_s < 1.2) continue;
     EXPECT_LT(error_m, 0.05) << since_cut_s;
     EXPECT_EQ(pose.flags, 0U) << since_cut_s;
   }

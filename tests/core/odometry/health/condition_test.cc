@@ -9,6 +9,12 @@
 namespace trajlo {
 namespace {
 
+RegistrationOptions TenShareAnError() {
+  RegistrationOptions registration;
+  registration.points_per_error = 10.0;
+  return registration;
+}
+
 TEST(WindowCondition, NamesTheDirectionThatNoPlaneHolds) {
   // A corridor along x: all normals are perpendicular to it.
   Window window = testing::MakeTestWindow(18);
@@ -20,14 +26,14 @@ TEST(WindowCondition, NamesTheDirectionThatNoPlaneHolds) {
     }
     segment.registration = LinearizeSegment(segment.points, SE3(), SE3(), window.noise);
   }
-  const WindowCondition condition = ConditionOf(window, 10.0);
+  const WindowCondition condition = ConditionOf(window, TenShareAnError());
   EXPECT_NEAR(condition.smallest_eigenvalue, 0.0, 1e-6);
   EXPECT_NEAR(std::abs(condition.weak_direction[0]), 1.0, 1e-6);
 }
 
 TEST(WindowCondition, WithoutPointsOrLeverArmNothingIsHeldAndAllIsFinite) {
   const auto expect_nothing = [](const Window& window) {
-    const WindowCondition condition = ConditionOf(window, 10.0);
+    const WindowCondition condition = ConditionOf(window, TenShareAnError());
     EXPECT_EQ(condition.smallest_eigenvalue, 0.0);
     EXPECT_TRUE(condition.weak_direction.allFinite());
   };

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <variant>
+#include <vector>
 
 #include "core/odometry/solvers/window_solver.h"
 #include "tests/support/test_window.h"
@@ -102,6 +104,39 @@ TEST(MotionPrior, RotationAloneIsUntied) {
 }
 
 /// The car that the paper's prior loses: 3 m/s² for ten seconds, after ten seconds of rest.
+TEST(MotionPrior, BendIsHowFarWhiteAccelerationStraysFromAConstantVelocity) {
+  MotionPriorOptions options;
+  options.translation_m2_s3 = 40.0;
+  constexpr double kDuration_s = 0.05;
+  constexpr int kSteps = 100, kTrials = 4000;
+  constexpr double dt_s = kDuration_s / kSteps;
+  testing::Random random(11);
+  double sum_m2 = 0.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> x_m = {0.0};
+    double v_m_s = random.Gaussian(1.0);
+    for (int i = 0; i < kSteps; ++i) {
+      const double dv_m_s = random.Gaussian(std::sqrt(options.translation_m2_s3 * dt_s));
+      x_m.push_back(x_m.back() + dt_s * (v_m_s + dv_m_s / 2));
+      v_m_s += dv_m_s;
+    }
+    for (int i = 0; i < kSteps; ++i) {
+      const double off_m = x_m[static_cast<std::size_t>(i)] - x_m.back() * i / kSteps;
+      sum_m2 += off_m * off_m / (kSteps * kTrials);
+    }
+  }
+  SegmentCloud cloud;
+  cloud.end_ns = static_cast<std::int64_t>(kDuration_s * 1e9);
+  const double expected_m2 = MotionPrior(options).Bend_m2(cloud);
+  EXPECT_NEAR(sum_m2, expected_m2, 0.05 * expected_m2);
+  // A scan at one instant has no way to bend, and the paper's prior knows of none.
+  options.kind = MotionPriorKind::kPseudoVelocity;
+  EXPECT_EQ(MotionPrior(options).Bend_m2(cloud), 0.0);
+  options.kind = MotionPriorKind::kWhiteNoiseAcceleration;
+  cloud.map_points = {{{1.0F, 2.0F, 3.0F}, 1.0F}};
+  EXPECT_EQ(MotionPrior(options).Bend_m2(cloud), 0.0);
+}
+
 TEST(MotionPrior, FollowsABodyThatKeepsAccelerating) {
   Line line({});
   double worst = 0.0;

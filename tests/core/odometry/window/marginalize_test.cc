@@ -71,7 +71,8 @@ TEST(Marginalize, AWindowThatIsNotBelievedLeavesNoPullInThePrior) {
   for (const bool is_believed : {true, false}) {
     Window window = MakeTestWindow(20);  // Not solved: its gradient is large.
     window.segments[0].registration =
-        LinearizeSegment(window.segments[0].points, window.Pose(0), window.Pose(1), window.noise);
+        LinearizeSegment(window.segments[0].points, window.Pose(0), window.Pose(1),
+                         window.NoiseOf(window.segments[0]));
     window.is_believed = is_believed;
     Marginalize({}, &window);
     const MarginalizationPrior& prior = window.prior;
@@ -103,8 +104,9 @@ TEST(Covariance, OfAPoseIsThatOfCeres) {
   for (SE3& pose : poses) problem.AddParameterBlock(pose.data(), 7, &manifold);
   for (std::size_t k = 0; k < window.segments.size(); ++k) {
     Segment& segment = window.segments[k];
-    segment.registration = LinearizeSegment(segment.points, poses[k], poses[k + 1], window.noise);
-    problem.AddResidualBlock(new SegmentRegistrationCost(&segment.points, window.noise), nullptr,
+    const RegistrationNoise noise = window.NoiseOf(segment);
+    segment.registration = LinearizeSegment(segment.points, poses[k], poses[k + 1], noise);
+    problem.AddResidualBlock(new SegmentRegistrationCost(&segment.points, noise), nullptr,
                              poses[k].data(), poses[k + 1].data());
     if (const auto* known = std::get_if<SmoothnessTerm>(&segment.motion)) {
       problem.AddResidualBlock(new SmoothnessCost(known), nullptr, poses[k].data(),

@@ -11,6 +11,12 @@
 namespace trajlo {
 namespace {
 
+RegistrationOptions TenShareAnError() {
+  RegistrationOptions registration;
+  registration.points_per_error = 10.0;
+  return registration;
+}
+
 using testing::Random;
 
 /// Points of a corridor along x, or of a room, whose normals are off by noise.
@@ -87,16 +93,16 @@ TEST(SpuriousInformation, ACorridorOfNoisyNormalsTellsNothingAndARoomDoes) {
   Random random(5);
   for (int trial = 0; trial < 50; ++trial) {
     Window corridor = WindowOf(NoisyPoints(&random, 1000, false, 0.15));
-    WindowCondition condition = ConditionOf(corridor, 10.0);
+    WindowCondition condition = ConditionOf(corridor, TenShareAnError());
     EXPECT_EQ(condition.smallest_eigenvalue, 0.0);
     EXPECT_GT(std::abs(condition.weak_direction[0]), 0.9);
     // What the noise seems to tell: 5 cm.
     corridor.segments[0].spurious = {};
-    condition = ConditionOf(corridor, 10.0);
+    condition = ConditionOf(corridor, TenShareAnError());
     EXPECT_GT(condition.smallest_eigenvalue, 1.0 / (0.05 * 0.05));
 
     const Window room = WindowOf(NoisyPoints(&random, 1000, true, 0.15));
-    EXPECT_GT(ConditionOf(room, 10.0).smallest_eigenvalue, 1.0 / (0.03 * 0.03));
+    EXPECT_GT(ConditionOf(room, TenShareAnError()).smallest_eigenvalue, 1.0 / (0.03 * 0.03));
   }
 }
 
@@ -115,13 +121,15 @@ std::vector<RegistrationPoint> CorridorWithEndWall(Random* random, int count, do
 TEST(SpuriousInformation, WhatHangsOnFewPlacesMayBeFalse) {
   Random random(7);
   // A point alone tells 10 cm (1/m²: 100). Four hundred on one place may be one mistake.
-  EXPECT_LT(ConditionOf(WindowOf(CorridorWithEndWall(&random, 5, 1.5)), 10.0).smallest_eigenvalue,
+  EXPECT_LT(ConditionOf(WindowOf(CorridorWithEndWall(&random, 5, 1.5)), TenShareAnError())
+                .smallest_eigenvalue,
             100.0);
   const WindowCondition on_one_place =
-      ConditionOf(WindowOf(CorridorWithEndWall(&random, 400, 0.1)), 10.0);
+      ConditionOf(WindowOf(CorridorWithEndWall(&random, 400, 0.1)), TenShareAnError());
   EXPECT_EQ(on_one_place.smallest_eigenvalue, 0.0);
   EXPECT_GT(std::abs(on_one_place.weak_direction[0]), 0.9);
-  EXPECT_GT(ConditionOf(WindowOf(CorridorWithEndWall(&random, 400, 3.0)), 10.0).smallest_eigenvalue,
+  EXPECT_GT(ConditionOf(WindowOf(CorridorWithEndWall(&random, 400, 3.0)), TenShareAnError())
+                .smallest_eigenvalue,
             2500.0);
 }
 
@@ -133,7 +141,7 @@ TEST(SpuriousInformation, APlaneThatMayBeNoSurfaceTellsNothing) {
       point.normal_variance_rad2 = std::numeric_limits<double>::infinity();
     }
   }
-  const WindowCondition condition = ConditionOf(WindowOf(points), 10.0);
+  const WindowCondition condition = ConditionOf(WindowOf(points), TenShareAnError());
   EXPECT_LT(condition.smallest_eigenvalue, 1e-3);
   EXPECT_GT(std::abs(condition.weak_direction[0]), 0.9);
 }
@@ -154,9 +162,9 @@ TEST(SpuriousInformation, GroupsOfPlacesAddUpToTheInformation) {
 TEST(SpuriousInformation, AsManyErrorsAsUnknownsTellNothing) {
   Random random(6);
   const Window few = WindowOf(NoisyPoints(&random, 60, true, 0.0));
-  EXPECT_EQ(ConditionOf(few, 10.0).smallest_eigenvalue, 0.0);
+  EXPECT_EQ(ConditionOf(few, TenShareAnError()).smallest_eigenvalue, 0.0);
   const Window more = WindowOf(NoisyPoints(&random, 400, true, 0.0));
-  EXPECT_GT(ConditionOf(more, 10.0).smallest_eigenvalue, 100.0);
+  EXPECT_GT(ConditionOf(more, TenShareAnError()).smallest_eigenvalue, 100.0);
 }
 
 }  // namespace
