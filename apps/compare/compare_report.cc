@@ -8,6 +8,7 @@
 #include "core/io/stamp_text.h"
 #include "core/report/csv_row.h"
 #include "core/report/versions.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -47,9 +48,8 @@ std::string FreeTable(const CompareReport& report) {
   for (const FreeResult& r : report.free) {
     const double windows = std::max(1, static_cast<int>(r.windows.windows));
     const std::string apart_after =
-        r.parts_at_ns
-            ? FormatText("%.2f", 1e-9 * static_cast<double>(*r.parts_at_ns - r.poses.front().t_ns))
-            : "never";
+        r.parts_at_ns ? FormatText("%.2f", Seconds(*r.parts_at_ns - r.poses.front().t_ns))
+                      : "never";
     text += FormatText("  %-22s %9.2f %7.2f %9.3f %9d %11.1e %13s %9s%s\n", r.name.c_str(), r.cpu_s,
                        Ratio(r.cpu_s, report.free.front().cpu_s), r.windows.solve_ms / windows,
                        r.rejected_steps, r.max_from_first_m, apart_after.c_str(),

@@ -7,6 +7,7 @@
 #include "core/odometry/stopwatch.h"
 #include "core/report/progress_bar.h"
 #include "core/report/run_summary.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 

@@ -18,19 +18,18 @@
 #include "core/io/recording/open_recording.h"
 #include "core/io/trajectory_writer.h"
 #include "core/report/progress_bar.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
 
 constexpr char kCommand[] = "trajlo_convert";
 
-std::int64_t ToNs(double seconds) { return std::llround(1e9 * seconds); }
-
 /// The poses of the excerpt; throws InputError if there are none.
 std::vector<StampedPose> WantedPoses(const ConvertRequest& request,
                                      const std::vector<StampedPose>& poses) {
-  const std::int64_t begin_ns = poses.front().t_ns + ToNs(request.recording.start_s);
-  const std::int64_t duration_ns = ToNs(request.recording.duration_s);
+  const std::int64_t begin_ns = poses.front().t_ns + Nanoseconds(request.recording.start_s);
+  const std::int64_t duration_ns = Nanoseconds(request.recording.duration_s);
   std::vector<StampedPose> wanted;
   for (const StampedPose& pose : poses) {
     if (pose.t_ns < begin_ns) continue;
@@ -71,8 +70,8 @@ MessageCopyResult CopyWanted(const ConvertRequest& request, const std::atomic<bo
                              Copy&& copy) {
   MessageCopyOptions options;
   options.topics = request.recording.topics;
-  options.start_ns = ToNs(request.recording.start_s);
-  options.duration_ns = ToNs(request.recording.duration_s);
+  options.start_ns = Nanoseconds(request.recording.start_s);
+  options.duration_ns = Nanoseconds(request.recording.duration_s);
   ProgressBar progress(stderr, request.quiet);
   options.on_progress = [&](std::size_t done, std::size_t all) { progress.Update(done, all); };
   options.should_stop = [&] { return stop.load(); };

@@ -9,6 +9,7 @@
 #include "core/io/inspection/findings.h"
 #include "core/io/inspection/run_advice.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -100,8 +101,7 @@ std::string StampLines(const StampSummary& stamps) {
                          FormatText(" s, every %.6g s, jitter %.2g s, at most %.2g s",
                                     stamps.period_s, stamps.jitter_s, stamps.largest_deviation_s));
   for (std::size_t i = 0; i < stamps.gaps.size() && i < kPrintedGaps; ++i) {
-    lines += Line("", FormatText("gap of %.4g s after ",
-                                 1e-9 * static_cast<double>(stamps.gaps[i].length_ns)) +
+    lines += Line("", FormatText("gap of %.4g s after ", Seconds(stamps.gaps[i].length_ns)) +
                           FormatSeconds(stamps.gaps[i].after_ns) + " s");
   }
   if (stamps.gaps.size() > kPrintedGaps) {

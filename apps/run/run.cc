@@ -11,6 +11,7 @@
 #include "core/report/flag_warnings.h"
 #include "core/report/progress_bar.h"
 #include "core/report/view_ply.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -74,8 +75,8 @@ void Run::Estimate(const std::atomic<bool>& stop) {
       return !stop;
     });
     const std::int64_t data_ns = newest_ns_ - first_ns_.value_or(newest_ns_);
-    bar.Update({count + 1, recording_->size(), 1e-9 * static_cast<double>(data_ns),
-                SecondsSince(begin), inlier_share_});
+    bar.Update(
+        {count + 1, recording_->size(), Seconds(data_ns), SecondsSince(begin), inlier_share_});
   }
   Timed([&] { odometry_.Finish(); });
 }

@@ -8,6 +8,7 @@
 
 #include "core/evaluation/evaluation_error.h"
 #include "core/evaluation/stamp_search.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {

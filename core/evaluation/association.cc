@@ -9,6 +9,7 @@
 #include "core/evaluation/stamp_search.h"
 #include "core/io/format_text.h"
 #include "core/io/scan_stamps.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {

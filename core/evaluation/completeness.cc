@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/evaluation/stamp_search.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 

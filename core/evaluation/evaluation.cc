@@ -13,6 +13,7 @@
 #include "core/evaluation/shape_doubt.h"
 #include "core/evaluation/stamp_search.h"
 #include "core/io/format_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/evaluation/pose_errors.h"
 #include "core/evaluation/stamp_search.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {

@@ -9,14 +9,6 @@
 
 namespace trajlo {
 
-inline double Seconds(std::int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
-
-/// Rounded; beyond 100 years (also infinity) it is 100 years, so that sums do not overflow.
-inline std::int64_t Nanoseconds(double t_s) {
-  constexpr double kLimit_s = 3.2e9;
-  return std::llround(1e9 * std::clamp(t_s, -kLimit_s, kLimit_s));
-}
-
 /// The distance of two stamps as a program sees it that holds stamps as doubles of seconds: since
 /// 1970 they are rounded to 0.2 us. The tools that define "nearest" do so, and their published
 /// numbers depend on which of two equally near poses that lets win.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 namespace {
 
@@ -21,7 +23,7 @@ double ValueOf(const Surfel& surfel, ColorBy by, std::int64_t origin_ns) {
     case ColorBy::kIntensity:
       return surfel.intensity;
     case ColorBy::kTime:
-      return 1e-9 * static_cast<double>(surfel.seen_ns - origin_ns);
+      return Seconds(surfel.seen_ns - origin_ns);
   }
   return 0.0;
 }

@@ -6,6 +6,7 @@
 #include "core/export/map_file.h"
 #include "core/io/messages/message_writer.h"
 #include "core/io/messages/navigation_messages.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -114,7 +115,7 @@ void ResultBag::WritePose(std::size_t index) {
   const double max_gap_s = result_.config.odometry.segmenter.max_gap_s;
   if (index > 0) {
     const ControlPose& before = poses[index - 1];
-    const double seconds = 1e-9 * static_cast<double>(pose.t_ns - before.t_ns);
+    const double seconds = Seconds(pose.t_ns - before.t_ns);
     // The twist of a segment is the same at both of its ends.
     if (seconds <= max_gap_s) {
       state.velocity = Minus(pose.T_world_body, before.T_world_body) / seconds;

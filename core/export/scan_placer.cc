@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "core/odometry/segments/turn_up.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 
 ScanPlacer::ScanPlacer(const Trajectory* trajectory, const SegmenterOptions& segmenter)
     : trajectory_(trajectory),
       segmenter_(segmenter),
-      max_gap_ns_(std::llround(1e9 * segmenter.max_gap_s)) {}
+      max_gap_ns_(Nanoseconds(segmenter.max_gap_s)) {}
 
 std::optional<PlacedScan> ScanPlacer::Place(const LidarScan& scan) {
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);

@@ -11,6 +11,7 @@
 #include "core/io/scan_decoder.h"
 #include "core/io/stamp_text.h"
 #include "core/io/time_probe.h"
+#include "core/scans/nanoseconds.h"
 #include "core/scans/scan_times.h"
 
 namespace trajlo {
@@ -80,7 +81,7 @@ void ScanFolder::Probe() {
 void ScanFolder::SetRegularStamps() {
   has_assumed_stamps_ = true;
   // A sweep that differs clearly from the configured period knows better.
-  const double sweep_s = 1e-9 * static_cast<double>(convention_.sweep_ns);
+  const double sweep_s = Seconds(convention_.sweep_ns);
   double period_s = options_.scan_period_s;
   if (convention_.HasPointTimes() && std::abs(sweep_s - period_s) > 0.2 * period_s) {
     period_s = sweep_s;
@@ -89,8 +90,8 @@ void ScanFolder::SetRegularStamps() {
   for (std::size_t i = 0; i < stamps_.t_ns.size(); ++i) {
     stamps_.t_ns[i] = std::llround(1e9 * period_s * static_cast<double>(i));
   }
-  stamps_.source = "none found, so a scan every " + Milliseconds(std::llround(1e9 * period_s)) +
-                   " from 0 s is assumed";
+  stamps_.source =
+      "none found, so a scan every " + Milliseconds(Nanoseconds(period_s)) + " from 0 s is assumed";
 }
 
 void ScanFolder::Describe(const std::filesystem::path& path) {

@@ -18,6 +18,7 @@
 #include "core/io/stamp_of_name.h"
 #include "core/io/stamp_text.h"
 #include "core/scans/median.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -100,7 +101,7 @@ double TimeLeftOut_s(const std::vector<std::int64_t>& t_ns, std::size_t i, doubl
   std::vector<double> left_out_s;
   for (std::size_t a = 0; a < 3 && a <= i; ++a) {
     for (std::size_t b = 0; b < 3 && i + 1 + b < t_ns.size(); ++b) {
-      const double step_s = 1e-9 * static_cast<double>(t_ns[i + 1 + b] - t_ns[i - a]);
+      const double step_s = Seconds(t_ns[i + 1 + b] - t_ns[i - a]);
       left_out_s.push_back(step_s - static_cast<double>(1 + a + b) * period_s);
     }
   }
@@ -240,7 +241,7 @@ double TypicalPeriod(const std::vector<std::int64_t>& t_ns) {
   for (std::size_t i = 1; i < t_ns.size(); ++i) {
     if (t_ns[i] > t_ns[i - 1]) steps.push_back(t_ns[i] - t_ns[i - 1]);
   }
-  return 1e-9 * static_cast<double>(LowerMedian(std::move(steps)));
+  return Seconds(LowerMedian(std::move(steps)));
 }
 
 std::string DoubtOfStampUnit(double period_s) {

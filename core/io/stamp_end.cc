@@ -7,6 +7,7 @@
 
 #include "core/io/format_text.h"
 #include "core/scans/median.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -20,8 +21,7 @@ StampAt JudgeByCutSweeps(const TimeEvidence& evidence, double last_s, double spa
   const std::vector<TimeSample>& samples = evidence.samples;
   const auto step_matches = [&](std::size_t k, double sweep_s) {  // From stamp k to stamp k + 1.
     if (k + 1 >= samples.size() || !samples[k].stamp_ns || !samples[k + 1].stamp_ns) return false;
-    const double step_s =
-        1e-9 * static_cast<double>(*samples[k + 1].stamp_ns - *samples[k].stamp_ns);
+    const double step_s = Seconds(*samples[k + 1].stamp_ns - *samples[k].stamp_ns);
     return std::abs(step_s - sweep_s) < kSame * span_s;
   };
   int starts = 0, ends = 0;
@@ -40,7 +40,7 @@ StampAt JudgeByCutSweeps(const TimeEvidence& evidence, double last_s, double spa
 void Doubt(const std::string& why, TimeConvention* found) {
   found->doubt = "stamps are taken for the start of the sweep, but " + why +
                  "; if they mark its end, all times are " +
-                 FormatText("%.4g s", 1e-9 * static_cast<double>(found->sweep_ns)) +
+                 FormatText("%.4g s", Seconds(found->sweep_ns)) +
                  " too late; set input.stamp_at=end";
 }
 
@@ -58,11 +58,11 @@ StampAt JudgeByRecording(const TimeEvidence& evidence, TimeConvention* found) {
   std::vector<double> delays_s;
   for (const TimeSample& sample : evidence.samples) {
     if (!sample.stamp_ns || !sample.recorded_ns) continue;
-    delays_s.push_back(1e-9 * static_cast<double>(*sample.recorded_ns - *sample.stamp_ns));
+    delays_s.push_back(Seconds(*sample.recorded_ns - *sample.stamp_ns));
   }
   if (delays_s.empty()) return StampAt::kAuto;
   const double delay_s = UpperMedian(delays_s);
-  const double sweep_s = 1e-9 * static_cast<double>(found->sweep_ns);
+  const double sweep_s = Seconds(found->sweep_ns);
   if (std::abs(delay_s) < kCopy_s) {
     Doubt("the times of recording are copies of them, and nothing else tells", found);
     return StampAt::kAuto;
@@ -90,7 +90,7 @@ std::string BeforeOrAfter(double after_s) {
 
 StampAt JudgeStampEnd(const TimeEvidence& evidence, double last, double span,
                       TimeConvention* found) {
-  const double unit_s = 1e-9 * static_cast<double>(NanosecondsPer(found->unit));
+  const double unit_s = Seconds(NanosecondsPer(found->unit));
   const StampAt by_sweeps = JudgeByCutSweeps(evidence, last * unit_s, span * unit_s, unit_s);
   if (by_sweeps != StampAt::kAuto) {
     found->evidence += "; so sweeps that are cut short join their neighbours";

@@ -16,6 +16,7 @@
 #include "core/odometry/weights/innovation.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/push_segment.h"
+#include "core/scans/nanoseconds.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {

@@ -5,6 +5,7 @@
 
 #include "core/io/stamp_text.h"
 #include "core/report/window_csv.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 
@@ -15,8 +16,7 @@ PoseFlags::PoseFlags(const std::vector<ControlPose>& poses,
     const bool is_lost = lost_at_ns && poses[i].t_ns >= *lost_at_ns;
     const unsigned flags = poses[i].flags | (is_lost ? kFlagLost : 0U);
     poses_.push_back({poses[i].t_ns, flags});
-    const double duration_s =
-        i > 0 ? 1e-9 * static_cast<double>(poses[i].t_ns - poses[i - 1].t_ns) : 0.0;
+    const double duration_s = i > 0 ? Seconds(poses[i].t_ns - poses[i - 1].t_ns) : 0.0;
     seconds_ += duration_s;
     const auto count = [&](FlaggedPoses* total) {
       ++total->poses;

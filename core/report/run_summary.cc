@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/io/format_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {

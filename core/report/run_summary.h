@@ -11,6 +11,7 @@
 #include "core/report/pose_flags.h"
 #include "core/report/rig_report.h"
 #include "core/report/window_totals.h"
+#include "core/scans/nanoseconds.h"
 #include "core/scans/time_report.h"
 
 namespace trajlo {
@@ -70,9 +71,7 @@ struct RunSummary {
   /// points, or if a last scan that was dropped would lengthen the recording by so much.
   std::string MissingInput() const;
 
-  double DataSeconds() const {
-    return begin_ns && end_ns ? 1e-9 * static_cast<double>(*end_ns - *begin_ns) : 0.0;
-  }
+  double DataSeconds() const { return begin_ns && end_ns ? Seconds(*end_ns - *begin_ns) : 0.0; }
   double RealTimeFactor() const { return wall_s > 0.0 ? DataSeconds() / wall_s : 0.0; }
 };
 

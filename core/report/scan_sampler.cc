@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/odometry/segments/turn_up.h"
+#include "core/scans/nanoseconds.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
@@ -148,7 +149,7 @@ std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory,
     const std::int64_t moment_ns = *origin_ns_ + index * options_.moment_ns;
     for (const Kept& kept : moment.points) {
       const LidarPlace lidar = kept.lidar < rig.size() ? rig[kept.lidar] : LidarPlace();
-      const std::int64_t t_ns = kept.t_ns + std::llround(1e9 * lidar.clock_moved_s);
+      const std::int64_t t_ns = kept.t_ns + Nanoseconds(lidar.clock_moved_s);
       if (!place_along.Enter(t_ns)) continue;
       const Eigen::Vector3d p_lidar = TurnUp(kept.p_lidar_m, turn_rad).cast<double>();
       const Eigen::Vector3d p_body = lidar.T_body_lidar * p_lidar;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 namespace {
 
@@ -54,12 +56,12 @@ void TrajectorySampler::AdvanceControlPoses(const Trajectory& trajectory, const 
 /// From the begin, not from the sample before: rounding must not add up.
 std::int64_t TrajectorySampler::SampleTime(const Trajectory& trajectory) const {
   const double seconds = static_cast<double>(next_) / options_.rate_hz;
-  return trajectory.poses().front().t_ns + std::llround(1e9 * seconds);
+  return trajectory.poses().front().t_ns + Nanoseconds(seconds);
 }
 
 void TrajectorySampler::AdvanceRate(const Trajectory& trajectory, const Visit& visit) {
   const std::vector<ControlPose>& poses = trajectory.poses();
-  const auto max_gap_ns = std::llround(1e9 * options_.max_gap_s);
+  const auto max_gap_ns = Nanoseconds(options_.max_gap_s);
   for (bool goes_on = true; goes_on;) {
     const std::int64_t t_ns = SampleTime(trajectory);
     while (next_pose_ < poses.size() && poses[next_pose_].t_ns < t_ns) ++next_pose_;
@@ -68,7 +70,7 @@ void TrajectorySampler::AdvanceRate(const Trajectory& trajectory, const Visit& v
     const bool is_in_gap =
         next_pose_ > 0 && pose_ns > t_ns && pose_ns - poses[next_pose_ - 1].t_ns > max_gap_ns;
     if (is_in_gap) {
-      const double seconds = 1e-9 * static_cast<double>(pose_ns - poses.front().t_ns);
+      const double seconds = Seconds(pose_ns - poses.front().t_ns);
       const auto behind = static_cast<std::size_t>(std::ceil(seconds * options_.rate_hz));
       next_ = std::max(next_ + 1, behind);
       continue;

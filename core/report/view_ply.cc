@@ -6,6 +6,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -23,7 +24,7 @@ void WriteViewPly(const std::filesystem::path& path, const std::vector<WorldPoin
   rows.reserve(points.size());
   for (const WorldPoint& point : points) {
     const Eigen::Vector3f& p = point.p_world_m;
-    const auto t_s = static_cast<float>(1e-9 * static_cast<double>(point.moment_ns - begin_ns));
+    const auto t_s = static_cast<float>(Seconds(point.moment_ns - begin_ns));
     rows.push_back({p.x(), p.y(), p.z(), point.intensity, t_s});
   }
   AtomicFile file(path, IfExists::kReplace);

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 namespace {
 
@@ -20,16 +22,16 @@ constexpr std::int64_t kSmallShift_ns = 1'000'000'000;
 /// A walker moves by three centimetres in so much time.
 constexpr std::int64_t kLargeDrift_ns = 20'000'000;
 
-std::string Seconds(std::int64_t ns) {
+std::string SecondsText(std::int64_t ns) {
   char text[40];
-  std::snprintf(text, sizeof(text), "%.3f s", 1e-9 * static_cast<double>(ns));
+  std::snprintf(text, sizeof(text), "%.3f s", Seconds(ns));
   return text;
 }
 
 /// What clocks differ by is not known to more than a sweep.
 std::string Roughly(std::int64_t ns) {
   char text[40];
-  std::snprintf(text, sizeof(text), "%+.1f s", 1e-9 * static_cast<double>(ns));
+  std::snprintf(text, sizeof(text), "%+.1f s", Seconds(ns));
   return text;
 }
 
@@ -166,7 +168,7 @@ void ScanSequencer::DoubtTheBegin() {
   if (!dropped_first_ns_ || !tracks_[first_lidar_].clock().has_started()) return;
   const std::int64_t before_ns = Difference(tracks_[first_lidar_].first_ns(), *dropped_first_ns_);
   if (before_ns > LidarTrack::kLongestPause_ns) return;
-  report_.doubtful_begin_s = std::max(0.0, 1e-9 * static_cast<double>(before_ns));
+  report_.doubtful_begin_s = std::max(0.0, Seconds(before_ns));
 }
 
 void ScanSequencer::Release() {
@@ -207,7 +209,8 @@ void ScanSequencer::Describe(std::size_t lidar) {
     ++report_.clock_steps;
     const bool is_ahead = step->length_ns > 0;
     Remark(LidarName(lidar) + ": its clock steps " + (is_ahead ? "ahead" : "back") + " by " +
-           Seconds(is_ahead ? step->length_ns : -step->length_ns) + ", to " + Seconds(step->at_ns) +
+           SecondsText(is_ahead ? step->length_ns : -step->length_ns) + ", to " +
+           SecondsText(step->at_ns) +
            (step->is_true_behind ? "; the times before were moved so that these go on from them"
                                  : "; the times from there on are moved so that they go on from "
                                    "those before"));
@@ -216,7 +219,7 @@ void ScanSequencer::Describe(std::size_t lidar) {
   if (!apart || is_apart_[lidar]) return;
   is_apart_[lidar] = true;
   const std::string how_far =
-      Seconds(std::abs(apart->ahead_ns)) + (apart->ahead_ns > 0 ? " ahead of" : " behind");
+      SecondsText(std::abs(apart->ahead_ns)) + (apart->ahead_ns > 0 ? " ahead of" : " behind");
   const std::string first = LidarName(first_lidar_);
   std::string sentence = LidarName(lidar) + ": its times are " + how_far + " those of " + first;
   if (apart->never_together) sentence += ", which was silent by then";
@@ -242,8 +245,8 @@ void ScanSequencer::CompareSpans() {
     const bool is_shifted = std::abs(begin_ns) > std::max(kSmallShift_ns, 3 * periods_ns);
     if (!is_shifted || std::abs(begin_ns - end_ns) > periods_ns + kSmallShift_ns / 10) continue;
     report_.clocks_may_differ = true;
-    Remark(LidarName(i) + ": it begins " + Seconds(begin_ns) + " after " + LidarName(first_lidar_) +
-           " and ends " + Seconds(end_ns) +
+    Remark(LidarName(i) + ": it begins " + SecondsText(begin_ns) + " after " +
+           LidarName(first_lidar_) + " and ends " + SecondsText(end_ns) +
            " after it: if both recorded at the same time, their clocks differ, and "
            "input.clock_offset_s of one must be set");
   }
@@ -258,7 +261,8 @@ void ScanSequencer::CompareDrifts() {
     if (!drift_ns || Distance(*drift_ns, *first_ns) < kLargeDrift_ns) continue;
     report_.clocks_may_differ = true;
     Remark(LidarName(i) + ": by the times of recording, its clock and that of " +
-           LidarName(first_lidar_) + " run apart, by " + Seconds(Distance(*drift_ns, *first_ns)) +
+           LidarName(first_lidar_) + " run apart, by " +
+           SecondsText(Distance(*drift_ns, *first_ns)) +
            " in this recording: the LiDARs must be synchronised");
   }
 }

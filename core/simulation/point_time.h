@@ -4,13 +4,15 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo::simulation {
 
 /// The offset closest to this that survives being written as float32 seconds, as Velodyne's driver
 /// and our PCD files have it, and read back to whole ns. Within a sweep of 0.1 s it is 4 ns off at
 /// most; so all forms of a recording hold the same times.
 inline std::int64_t StorableOffsetNs(std::int64_t offset_ns) {
-  const auto seconds = static_cast<float>(1e-9 * static_cast<double>(offset_ns));
+  const auto seconds = static_cast<float>(Seconds(offset_ns));
   return std::llround(1e9 * static_cast<double>(seconds));
 }
 

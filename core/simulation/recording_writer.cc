@@ -10,6 +10,7 @@
 #include "core/io/output_file.h"
 #include "core/io/point_cloud_writer.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 #include "core/simulation/scenario_yaml.h"
 #include "core/simulation/scene_picture.h"
 
@@ -41,8 +42,7 @@ void WritePcd(const fs::path& path, const SimulatedScan& simulated) {
   data.reserve(5 * points.size());
   for (const LidarPoint& p : points) {
     data.insert(data.end(), {p.xyz_m.x(), p.xyz_m.y(), p.xyz_m.z(), p.intensity});
-    data.push_back(
-        static_cast<float>(1e-9 * static_cast<double>(p.t_ns - simulated.sweep_start_ns)));
+    data.push_back(static_cast<float>(Seconds(p.t_ns - simulated.sweep_start_ns)));
   }
   WriteFile(path, PcdHeader("x y z intensity time", "FFFFF", points.size()), data);
 }

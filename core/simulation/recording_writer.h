@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scans/nanoseconds.h"
 #include "core/simulation/simulated_bag.h"
 #include "core/simulation/simulated_scan.h"
 #include "core/simulation/simulator.h"
@@ -48,9 +49,7 @@ class RecordingWriter {
   std::int64_t scans() const { return scans_; }
   std::int64_t points() const { return points_; }
   /// From the start to the end of the last sweep.
-  double seconds() const {
-    return 1e-9 * static_cast<double>(written_until_ns_ - simulator_.start_ns());
-  }
+  double seconds() const { return Seconds(written_until_ns_ - simulator_.start_ns()); }
 
  private:
   struct Stream {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/scans/nanoseconds.h"
 #include "core/simulation/point_time.h"
 #include "core/simulation/random.h"
 #include "core/simulation/scan_stream.h"
@@ -94,7 +95,7 @@ Simulator::Simulator(const Scenario& scenario, Scene scene, PoseFunction T_world
 }
 
 SE3 Simulator::TrueWorldFromBody(std::int64_t t_ns) const {
-  return T_world_body_(1e-9 * static_cast<double>(t_ns - start_ns_));
+  return T_world_body_(Seconds(t_ns - start_ns_));
 }
 
 std::int64_t Simulator::ScanCount(int lidar_id) const {
@@ -154,7 +155,7 @@ void Simulator::CastFirings(int lidar_id, std::int64_t index, int first, int las
     const Firing firing = pattern.At(index, i);
     if (firing.offset_ns != pose_offset_ns) {  // The beams of a column may share their time.
       pose_offset_ns = firing.offset_ns;
-      t_s = 1e-9 * static_cast<double>(begin_ns + firing.offset_ns);
+      t_s = Seconds(begin_ns + firing.offset_ns);
       T_world_lidar = T_world_body_(t_s) * lidar.T_body_lidar;
     }
     CounterRandom random(scenario_.seed, static_cast<std::uint64_t>(lidar_id),

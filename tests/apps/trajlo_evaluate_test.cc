@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/trajectory_writer.h"
+#include "core/scans/nanoseconds.h"
 #include "tests/apps/command_testing.h"
 #include "tests/core/evaluation/synthetic_poses.h"
 #include "tests/support/temp_folder.h"

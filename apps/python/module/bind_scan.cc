@@ -8,6 +8,7 @@
 #include "apps/python/module/bindings.h"
 #include "apps/python/module/make_scan.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 #include "core/scans/scan_times.h"
 
 namespace trajlo::python {
@@ -49,7 +50,7 @@ py::array_t<double> TimesAfterStamp(const LidarScan& scan) {
   std::vector<double> times_s;
   times_s.reserve(scan.points.size());
   for (const LidarPoint& point : scan.points) {
-    times_s.push_back(1e-9 * static_cast<double>(Difference(point.t_ns, scan.stamp_ns)));
+    times_s.push_back(Seconds(Difference(point.t_ns, scan.stamp_ns)));
   }
   return CopyOf(times_s);
 }

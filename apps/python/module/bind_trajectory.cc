@@ -16,6 +16,7 @@
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_writer.h"
 #include "core/odometry/trajectory/trajectory.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo::python {
 namespace {
@@ -78,7 +79,7 @@ std::int64_t NsFromSeconds(double t_s, const Trajectory& trajectory) {
   if (!(std::abs(t_s) <= kLatest_s)) {
     throw DataError("times_s: must be seconds within ±4.6e9, found " + std::to_string(t_s));
   }
-  const std::int64_t t_ns = std::llround(1e9 * t_s);
+  const std::int64_t t_ns = Nanoseconds(t_s);
   if (trajectory.empty()) return t_ns;
   const std::int64_t first = trajectory.poses().front().t_ns;
   const std::int64_t last = trajectory.poses().back().t_ns;
@@ -215,9 +216,8 @@ void BindTrajectory(py::module_* module) {
       .def_property_readonly(
           "times",
           [](const Trajectory& trajectory) {
-            return Collect<double>(trajectory, 0, [](const auto& pose, auto* out) {
-              *out = 1e-9 * static_cast<double>(pose.t_ns);
-            });
+            return Collect<double>(trajectory, 0,
+                                   [](const auto& pose, auto* out) { *out = Seconds(pose.t_ns); });
           },
           "(N,) float64, seconds; since 1970 they are rounded to 0.2 us, and times_ns is exact.")
       .def_property_readonly(

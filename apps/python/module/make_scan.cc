@@ -6,6 +6,7 @@
 
 #include "apps/python/module/arrays.h"
 #include "apps/python/module/errors.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo::python {
 namespace {
@@ -47,7 +48,7 @@ std::int64_t ReadStamp(const py::object& stamp) {
 
 /// A time that is not finite tells nothing, which is fine for points that tell nothing either.
 std::int64_t OffsetNs(double time_s, const LidarPoint& point, std::size_t index) {
-  if (std::isfinite(time_s) && std::abs(time_s) <= kLongest_s) return std::llround(1e9 * time_s);
+  if (std::isfinite(time_s) && std::abs(time_s) <= kLongest_s) return Nanoseconds(time_s);
   if (!std::isfinite(time_s) && !point.xyz_m.allFinite()) return 0;
   throw DataError("times_s[" + std::to_string(index) +
                   "]: must be seconds after the stamp, at most " + "60, found " +

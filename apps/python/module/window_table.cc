@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "core/report/window_columns.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo::python {
 namespace {
@@ -30,7 +31,7 @@ class Row {
     }
   }
   void AddTime(const char* name, std::int64_t t_ns) {
-    Add(name, 1e-9 * static_cast<double>(t_ns));
+    Add(name, Seconds(t_ns));
     const std::string stem(name, std::string(name).rfind("_s"));
     Add((stem + "_ns").c_str(), t_ns);
   }

@@ -7,6 +7,7 @@
 #include "core/io/format_text.h"
 #include "core/io/scan_stamps.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -53,11 +54,11 @@ void JudgeStamps(const StampSummary& stamps, std::vector<std::string>* findings)
     const auto longest = std::max_element(
         stamps.gaps.begin(), stamps.gaps.end(),
         [](const StampGap& a, const StampGap& b) { return a.length_ns < b.length_ns; });
-    findings->push_back(CountOf(stamps.gaps.size(), "gap") + ", about " +
-                        CountOf(stamps.missing, "scan is", "scans are") +
-                        FormatText(" missing; the longest, %.4g s, is after ",
-                                   1e-9 * static_cast<double>(longest->length_ns)) +
-                        FormatSeconds(longest->after_ns) + " s");
+    findings->push_back(
+        CountOf(stamps.gaps.size(), "gap") + ", about " +
+        CountOf(stamps.missing, "scan is", "scans are") +
+        FormatText(" missing; the longest, %.4g s, is after ", Seconds(longest->length_ns)) +
+        FormatSeconds(longest->after_ns) + " s");
   }
   if (stamps.duplicates > 0) {
     findings->push_back(CountOf(stamps.duplicates, "stamp repeats", "stamps repeat") +

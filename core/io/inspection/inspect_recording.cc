@@ -11,6 +11,7 @@
 #include "core/io/recording/open_recording.h"
 #include "core/io/recording/probe_times.h"
 #include "core/io/scan_folder.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -90,7 +91,7 @@ void Collect(const std::vector<CloudInspector>& inspectors, bool is_quick,
     inspection->damaged = inspection->damaged || partial;
     inspection->clouds.push_back(std::move(found));
   }
-  inspection->duration_s = 1e-9 * static_cast<double>(end_ns - begin_ns);
+  inspection->duration_s = Seconds(end_ns - begin_ns);
   inspection->is_quick = is_quick;
 }
 

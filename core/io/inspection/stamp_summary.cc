@@ -6,6 +6,7 @@
 
 #include "core/io/scan_stamps.h"
 #include "core/scans/median.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kGapInPeriods = 1.5;
 void AddStep(std::int64_t before_ns, std::int64_t now_ns, StampSummary* summary,
              std::vector<double>* deviations_s) {
   const std::int64_t step_ns = now_ns - before_ns;
-  const double step_s = 1e-9 * static_cast<double>(step_ns);
+  const double step_s = Seconds(step_ns);
   if (step_ns == 0) {
     ++summary->duplicates;
     if (!summary->first_duplicate_ns) summary->first_duplicate_ns = now_ns;
@@ -37,8 +38,7 @@ StampSummary::Delay DelayOf(const std::vector<std::int64_t>& stamps_ns,
   std::vector<std::int64_t> delays_ns(stamps_ns.size());
   for (std::size_t i = 0; i < stamps_ns.size(); ++i) delays_ns[i] = recorded_ns[i] - stamps_ns[i];
   const auto [least, most] = std::minmax_element(delays_ns.begin(), delays_ns.end());
-  return {1e-9 * static_cast<double>(*least), 1e-9 * static_cast<double>(UpperMedian(delays_ns)),
-          1e-9 * static_cast<double>(*most)};
+  return {Seconds(*least), Seconds(UpperMedian(delays_ns)), Seconds(*most)};
 }
 
 }  // namespace

@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "core/scans/median.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
-namespace {
-
-double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
-
-}  // namespace
+namespace {}  // namespace
 
 void SweepTimes::Add(const LidarScan& scan, std::size_t points_without_time) {
   points_without_time_ += points_without_time;

@@ -7,6 +7,7 @@
 
 #include "core/io/messages/message_header.h"
 #include "core/io/messages/wire_reader.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -28,7 +29,7 @@ std::int64_t ChooseStamp(std::int64_t stamp_ns, std::uint64_t timebase_ns, std::
   const std::int64_t apart_ns = stamp_ns - timebase;
   if (std::abs(apart_ns) < kRoundingNs) return timebase;
   const bool same_clock = std::abs(apart_ns) < kLongestDelayNs;
-  *remark = "the header's stamp is " + std::to_string(1e-9 * static_cast<double>(apart_ns)) +
+  *remark = "the header's stamp is " + std::to_string(Seconds(apart_ns)) +
             " s after the timebase; " +
             (same_clock ? "they seem to be one clock, so point times count from the timebase"
                         : "they are different clocks, so point times count from the stamp");

@@ -11,6 +11,7 @@
 
 #include "core/io/errors.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -114,19 +115,18 @@ std::string WriteOuster(const MessageHeader& header, std::int64_t sweep_start_ns
 
 std::string WriteVelodyne(const MessageHeader& header, std::int64_t sweep_start_ns,
                           const LidarScan& scan, Encoding encoding) {
-  return WritePointCloud2(
-      header,
-      {{"x", 0, kFieldFloat32},
-       {"y", 4, kFieldFloat32},
-       {"z", 8, kFieldFloat32},
-       {"intensity", 12, kFieldFloat32},
-       {"ring", 16, kFieldUint16},
-       {"time", 18, kFieldFloat32}},
-      22, scan, encoding, [&](char* out, const LidarPoint& point) {
-        PutXyz(out, 0, point);
-        Put(out, 12, point.intensity);
-        Put(out, 18, static_cast<float>(1e-9 * static_cast<double>(point.t_ns - sweep_start_ns)));
-      });
+  return WritePointCloud2(header,
+                          {{"x", 0, kFieldFloat32},
+                           {"y", 4, kFieldFloat32},
+                           {"z", 8, kFieldFloat32},
+                           {"intensity", 12, kFieldFloat32},
+                           {"ring", 16, kFieldUint16},
+                           {"time", 18, kFieldFloat32}},
+                          22, scan, encoding, [&](char* out, const LidarPoint& point) {
+                            PutXyz(out, 0, point);
+                            Put(out, 12, point.intensity);
+                            Put(out, 18, static_cast<float>(Seconds(point.t_ns - sweep_start_ns)));
+                          });
 }
 
 std::string WriteLivox(const MessageHeader& header, std::int64_t sweep_start_ns,

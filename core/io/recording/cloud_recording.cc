@@ -10,6 +10,7 @@
 #include "core/io/format_text.h"
 #include "core/io/recording/probe_times.h"
 #include "core/io/scan_decoder.h"
+#include "core/scans/nanoseconds.h"
 #include "core/scans/scan_times.h"
 
 namespace trajlo {
@@ -73,11 +74,8 @@ void CloudRecording::SelectStreams(const RecordingOptions& options, std::size_t 
   reader_->Select(topics);
   for (const std::size_t topic : topics) {
     const std::size_t id = first_lidar_id + streams_.size();
-    streams_.push_back({topic,
-                        {},
-                        std::llround(1e9 * options.clock_offset_s.Of(id)),
-                        static_cast<int>(id),
-                        false});
+    streams_.push_back(
+        {topic, {}, Nanoseconds(options.clock_offset_s.Of(id)), static_cast<int>(id), false});
     report_.scans_listed += reader_->topics()[topic].messages;
   }
 }

@@ -13,6 +13,7 @@
 #include "core/io/recording/merged_recording.h"
 #include "core/io/recording/open_clouds.h"
 #include "core/io/scan_folder.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -26,7 +27,7 @@ std::unique_ptr<ScanSource> OpenFolder(const std::string& input, const Recording
   own.lidar_id = static_cast<int>(lidar_id);
   own.time = options.TimeOf(lidar_id);
   own.stamps_file = options.stamps_file;
-  own.clock_offset_ns = std::llround(1e9 * options.clock_offset_s.Of(lidar_id));
+  own.clock_offset_ns = Nanoseconds(options.clock_offset_s.Of(lidar_id));
   own.scan_period_s = options.scan_period_s;
   return std::make_unique<ScanFolder>(input, own);
 }
@@ -114,8 +115,8 @@ std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs
     whole = std::make_unique<MergedRecording>(std::move(sources));
   }
   if (options.start_s == 0.0 && options.duration_s == 0.0) return whole;
-  return std::make_unique<Excerpt>(std::move(whole), std::llround(1e9 * options.start_s),
-                                   std::llround(1e9 * options.duration_s));
+  return std::make_unique<Excerpt>(std::move(whole), Nanoseconds(options.start_s),
+                                   Nanoseconds(options.duration_s));
 }
 
 }  // namespace trajlo

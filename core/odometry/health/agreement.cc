@@ -9,13 +9,13 @@
 namespace trajlo {
 namespace {
 
-/// The c of MapAgreement, of cells.
-constexpr double kFewCells = 100.0;
+/// The c of MapAgreement.
+constexpr double kFewPoints = 100.0;
 
 }  // namespace
 
 MapAgreement AgreementOf(const Window& window, const Segment& segment) {
-  Eigen::Matrix3d all = kFewCells * segment.cloud.PointsPerCell() * Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d all = kFewPoints * Eigen::Matrix3d::Identity();
   Eigen::Matrix3d on_plane = all;
   double on_map = 0.0;
   ForEachPoint(window, segment, 1, [&](const RegistrationPoint& point, bool is_on_plane) {

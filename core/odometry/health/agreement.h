@@ -12,7 +12,7 @@ struct MapAgreement {
   /// Of the points that have a plane, the share that lies on it, in the direction in which it is
   /// least: a wrong place often agrees with the floor, and not with the walls. Over the normals n
   /// of these points, it is the least of uᵀ (Σ_on n nᵀ + c I) u / uᵀ (Σ n nᵀ + c I) u for any u.
-  /// With c = 100 cells of points, a direction that only a few points face says little.
+  /// With c = 100, a direction that only a few points face says little.
   double worst = 1.0;
 };
 MapAgreement AgreementOf(const Window& window, const Segment& segment);

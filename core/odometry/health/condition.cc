@@ -17,7 +17,7 @@ constexpr double kSigmas = 3.0;
 struct RigidInformation {
   Matrix6d H = Matrix6d::Zero();
   SpuriousInformation spurious;  ///< Its sums; the groups stay with the segments.
-  double cells = 0.0;            ///< That the points are from.
+  double points = 0.0;
 
   explicit RigidInformation(const Window& window) {
     const SE3& newest = window.EndPose();
@@ -32,9 +32,8 @@ struct RigidInformation {
       H -= A_begin.transpose() * segment.spurious.no_surface * A_begin;
       spurious.mean += A_begin.transpose() * segment.spurious.mean * A_begin;
       spurious.sum += segment.spurious.sum;
-      const double per_cell = segment.cloud.PointsPerCell();
-      spurious.sum_of_squares += per_cell * segment.spurious.sum_of_squares;
-      cells += static_cast<double>(segment.points.size()) / per_cell;
+      spurious.sum_of_squares += segment.spurious.sum_of_squares;
+      points += static_cast<double>(segment.points.size());
     }
   }
 };
@@ -87,7 +86,7 @@ WindowCondition ConditionOf(const Window& window, const RegistrationOptions& reg
     least = sure;
     condition.weak_direction = direction;
   }
-  const double left_over = 1.0 - 6.0 * points_per_error / information.cells;
+  const double left_over = 1.0 - 6.0 * points_per_error / information.points;
   const double scatter_m = std::max(PointScatter(window), registration.sigma_m);
   condition.smallest_eigenvalue = std::max(0.0, left_over) * std::max(0.0, least) *
                                   std::pow(registration.sigma_m / scatter_m, 2);

@@ -31,7 +31,7 @@ struct WindowCondition {
 ///     divided by sqrt(n) if n places tell equally much. A plane that each of two thousand points
 ///     confirms is safe; five points, each on a plane of its own, prove nothing.
 ///   - Of N errors that are independent, six are spent on finding the pose: with fewer, points
-///     agree whatever the pose is. The points of `points_per_error` cells share one.
+///     agree whatever the pose is. `points_per_error` points share one.
 ///
 /// And where the points scatter farther about their planes than sigma_m, they tell less than they
 /// were taken to: sigma_m² / scatter² of it.

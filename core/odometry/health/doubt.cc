@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/odometry/health/support.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {

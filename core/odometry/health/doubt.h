@@ -7,6 +7,7 @@
 #include "core/odometry/health/agreement.h"
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/window/window.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 

@@ -3,10 +3,12 @@
 
 #include <cmath>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 namespace {
 
-/// Points of fewer cells than this hold no pose.
+/// Fewer points than this hold no pose.
 constexpr double kHandful = 20.0;
 /// About so many are asked.
 constexpr std::size_t kAsked = 256;
@@ -27,8 +29,7 @@ bool IsUnsupported(const Window& window, const Segment& segment) {
     asked_on_plane += is_on_plane ? 1 : 0;
   });
   const auto on_plane = static_cast<double>(stride * asked_on_plane);
-  return on_plane < kHandful * segment.cloud.PointsPerCell() ||
-         on_plane < kAgreeing * static_cast<double>(segment.points.size());
+  return on_plane < kHandful || on_plane < kAgreeing * static_cast<double>(segment.points.size());
 }
 
 bool SilenceUnsupported(Window* window) {

@@ -11,9 +11,8 @@
 namespace trajlo {
 
 /// Whether the points of a segment do not hold it at its present poses: most of those that have a
-/// plane of the map do not lie on it, or only those of a handful of cells do. So it is while a
-/// LiDAR is covered or silent. Points without a plane say nothing: they may see a new part of the
-/// world.
+/// plane of the map do not lie on it, or only a handful does. So it is while a LiDAR is covered or
+/// silent. Points without a plane say nothing: they may see a new part of the world.
 bool IsUnsupported(const Window& window, const Segment& segment);
 
 /// Takes the weight from the points of such segments. A hand before the LiDAR moves with the body:

@@ -21,7 +21,6 @@ SegmentCloud JoinSegments(const std::vector<SegmentCloud>& segments) {
     };
     append(segment.map_points, &joined.map_points);
     append(segment.registration_points, &joined.registration_points);
-    joined.registration_cells += segment.registration_cells;
   }
   return joined;
 }

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "core/odometry/segments/lidar_correction.h"
+#include "core/scans/nanoseconds.h"
 #include "manifolds/eigen_abi.h"
 
 namespace trajlo {
-
-inline double Seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 /// A point of a segment in the body frame at its own time; `alpha` is that time as a share of the
 /// segment: 0 at its start, 1 at its end.
@@ -46,16 +45,9 @@ struct SegmentCloud {
   /// What the points of each LiDAR are corrected by.
   std::vector<LidarCorrection> corrections;
   std::vector<SegmentPoint> map_points;           ///< Fine: what enters the map.
-  std::vector<SegmentPoint> registration_points;  ///< A subset: what is registered.
-  std::size_t registration_cells = 0;             ///< So many coarse cells they are from.
+  std::vector<SegmentPoint> registration_points;  ///< Coarse subset: what is registered.
 
   double Duration_s() const { return Seconds(end_ns - begin_ns); }
-  /// Of the registered points. Those of a cell tell about the same: they count as one.
-  double PointsPerCell() const {
-    return registration_cells == 0 ? 1.0
-                                   : static_cast<double>(registration_points.size()) /
-                                         static_cast<double>(registration_cells);
-  }
   /// A motion-corrected scan: every point belongs to the end.
   bool IsInstant() const {
     return !map_points.empty() &&

@@ -234,17 +234,11 @@ std::optional<SegmentCloud> Segmenter::Next() {
 
 void Segmenter::Thin(const std::vector<SegmentPoint>& points, SegmentCloud* cloud) {
   map_filter_.Filter(points, &cloud->map_points);
-  registration_filter_.Split(cloud->map_points, &first_, &others_);
-  const std::size_t count = options_.max_registration_points > 0
-                                ? static_cast<std::size_t>(options_.max_registration_points)
-                                : cloud->map_points.size();
-  const std::vector<std::size_t> chosen = ChooseEvenly(first_, count);
-  cloud->registration_cells = chosen.size();
-  const std::vector<std::size_t> filling = ChooseEvenly(others_, count - chosen.size());
-  std::vector<std::size_t> all(chosen.size() + filling.size());
-  std::merge(chosen.begin(), chosen.end(), filling.begin(), filling.end(), all.begin());
-  cloud->registration_points.reserve(all.size());
-  for (const std::size_t i : all) cloud->registration_points.push_back(cloud->map_points[i]);
+  registration_filter_.Filter(cloud->map_points, &cloud->registration_points);
+  if (options_.max_registration_points > 0) {
+    cloud->registration_points = ChooseEvenly(
+        cloud->registration_points, static_cast<std::size_t>(options_.max_registration_points));
+  }
 }
 
 }  // namespace trajlo

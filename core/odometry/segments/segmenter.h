@@ -49,11 +49,9 @@ struct SegmenterOptions {
     d(OptionFor::kExperts, "map_voxel_m", map_voxel_m, Range<double>{1e-3, 10.0},
       "At most one point of a segment enters the map per cell of this size.");
     d(OptionFor::kExperts, "registration_voxel_m", registration_voxel_m, Range<double>{1e-3, 20.0},
-      "The points to register are taken from as many cells of this size as there are, before a "
-      "cell gives a second one.");
+      "Of these, at most one is registered per cell of this size.");
     d(OptionFor::kUsers, "max_registration_points", max_registration_points, Range<int>{0, 1000000},
-      "At most this many points of a segment are registered, taken evenly; 0 takes all. More are a "
-      "little more accurate, and slower.");
+      "At most this many points of a segment are registered, taken evenly; 0 takes all.");
     d(OptionFor::kExperts, "max_gap_s", max_gap_s, Range<double>{1e-3, 1e3},
       "A longer pause becomes one gap segment; shorter ones become empty segments.");
     d(OptionFor::kExperts, "max_lag_s", max_lag_s, Range<double>{0.0, 1e3},
@@ -114,9 +112,8 @@ class Segmenter {
   PointCounts counts_;
   VoxelFilter map_filter_;
   VoxelFilter registration_filter_;
-  std::vector<std::size_t> first_, others_;  ///< Of the cells of registration_filter_.
-  std::size_t usual_points_ = 0;             ///< What a segment holds, and a little more.
-  std::deque<Slot> slots_;                   ///< Not yet handed out, without holes.
+  std::size_t usual_points_ = 0;  ///< What a segment holds, and a little more.
+  std::deque<Slot> slots_;        ///< Not yet handed out, without holes.
   std::int64_t complete_until_ns_;
   std::vector<double> clocks_s_;
   std::vector<std::int64_t> newest_ns_;  ///< Newest time of each LiDAR.

@@ -5,6 +5,7 @@
 
 #include "core/odometry/segments/segment_cloud.h"
 #include "core/odometry/start/initial_motion.h"
+#include "core/scans/nanoseconds.h"
 #include "manifolds/se3.h"
 
 namespace trajlo {

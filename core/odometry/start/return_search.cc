@@ -6,6 +6,7 @@
 
 #include "core/odometry/health/support.h"
 #include "core/odometry/segments/join_segments.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -46,7 +47,7 @@ void ReturnSearch::Add(SegmentCloud segment) {
   since_look_s_ += segment.Duration_s();
   if (segment.IsInstant()) segments_.clear();
   segments_.push_back(std::move(segment));
-  const auto longest_ns = std::llround(1e9 * Longest_s());
+  const auto longest_ns = Nanoseconds(Longest_s());
   while (segments_.size() > 1 &&
          (segments_.back().end_ns - segments_.front().begin_ns > longest_ns ||
           segments_.front().map_points.empty())) {

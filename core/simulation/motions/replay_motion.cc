@@ -11,6 +11,7 @@
 #include "core/io/format_text.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_reader.h"
+#include "core/scans/nanoseconds.h"
 #include "core/simulation/motions/motion_makers.h"
 
 namespace trajlo::simulation {
@@ -68,7 +69,7 @@ CubicSpline ReadSpline(const std::string& path) {
   std::vector<double> times;
   std::vector<Vector7d> poses;
   for (const StampedPose& stamped : file) {
-    const double t = 1e-9 * static_cast<double>(stamped.t_ns - file.front().t_ns);
+    const double t = Seconds(stamped.t_ns - file.front().t_ns);
     if (!times.empty() && t <= times.back()) {
       throw std::runtime_error(path + ": the pose at " + FormatSeconds(stamped.t_ns) +
                                " s does not come after the one before it");

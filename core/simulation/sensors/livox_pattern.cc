@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo::simulation {
 
 namespace {
@@ -34,7 +36,7 @@ int RosettePattern::firings_per_scan() const {
 
 Firing RosettePattern::At(std::int64_t scan, int firing) const {
   const std::int64_t offset_ns = OffsetNs(firing, parameters_.points_per_second);
-  const double t_s = 1e-9 * static_cast<double>(scan * parameters_.period_ns + offset_ns);
+  const double t_s = Seconds(scan * parameters_.period_ns + offset_ns);
   const double phase_1 = Phase(parameters_.speed_1_rpm / 60.0, t_s);
   const double phase_2 = Phase(parameters_.speed_2_rpm / 60.0, t_s);
   const double x = parameters_.deflection_1_deg * std::cos(phase_1) +
@@ -60,7 +62,7 @@ int NoddingPattern::firings_per_scan() const {
 
 Firing NoddingPattern::At(std::int64_t scan, int firing) const {
   const std::int64_t offset_ns = OffsetNs(firing, parameters_.points_per_second);
-  const double t_s = 1e-9 * static_cast<double>(scan * parameters_.period_ns + offset_ns);
+  const double t_s = Seconds(scan * parameters_.period_ns + offset_ns);
   const double line_phase = 2.0 * M_PI * (firing % parameters_.lines) / parameters_.lines;
   const double middle = 0.5 * (parameters_.elevation_low_deg + parameters_.elevation_high_deg);
   const double half = 0.5 * (parameters_.elevation_high_deg - parameters_.elevation_low_deg);

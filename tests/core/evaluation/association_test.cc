@@ -5,6 +5,7 @@
 
 #include "core/evaluation/completeness.h"
 #include "core/evaluation/evaluation_error.h"
+#include "core/scans/nanoseconds.h"
 #include "tests/core/evaluation/synthetic_poses.h"
 
 namespace trajlo::testing {

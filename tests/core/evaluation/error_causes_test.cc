@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "core/evaluation/evaluation.h"
+#include "core/scans/nanoseconds.h"
 #include "tests/core/evaluation/synthetic_poses.h"
 
 namespace trajlo::testing {

@@ -2,6 +2,7 @@
 // Against evo: every run of its expected numbers, none left out. They are those of 1.36.5; 1.38.1
 // says the same, but for pieces of path in a row, whose numbers are in fixtures/.
 #include "core/evaluation/stamp_search.h"
+#include "core/scans/nanoseconds.h"
 #include "tests/core/evaluation/evaluation_testing.h"
 
 namespace trajlo::testing {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/evaluation/stamp_search.h"
+#include "core/scans/nanoseconds.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo::testing {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/evaluation/error_statistics.h"
+#include "core/scans/nanoseconds.h"
 #include "tests/core/evaluation/synthetic_poses.h"
 
 namespace trajlo::testing {

@@ -5,6 +5,7 @@
 
 #include "core/evaluation/association.h"
 #include "core/evaluation/stamp_search.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo::testing {
 

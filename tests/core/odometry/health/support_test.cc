@@ -44,14 +44,6 @@ TEST(Support, AHandfulOfPointsHoldsNothing) {
   EXPECT_TRUE(IsNewestUnsupported(Standing(0, 0, 0)));
 }
 
-TEST(Support, ManyPointsOfAHandfulOfCellsHoldNothing) {
-  // A hand before the LiDAR is so near that a cell has several points.
-  Window window = Standing(60, 60, 0);
-  EXPECT_FALSE(IsNewestUnsupported(window));
-  window.segments[0].cloud.registration_cells = 15;
-  EXPECT_TRUE(IsNewestUnsupported(window));
-}
-
 TEST(Support, PointsOfSegmentsThatTheyDoNotHoldLoseTheirWeight) {
   Window window = Standing(1000, 300, 400);
   Window held = Standing(1000, 400, 300);

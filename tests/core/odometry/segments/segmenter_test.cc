@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <limits>
-#include <map>
 #include <random>
 #include <set>
 
@@ -316,42 +314,6 @@ TEST(Segmenter, RegistersAtMostSoManyPointsSpreadOverTheSegment) {
     EXPECT_NEAR(clouds[0].registration_points[i].alpha - clouds[0].registration_points[i - 1].alpha,
                 1.0 / 7, 0.02);
   }
-}
-
-TEST(Segmenter, RegistersAPointOfEachCellBeforeItTakesASecondOne) {
-  // Ten points a metre apart, each with nine others beside it.
-  LidarScan scan = MakeScan(0, 100);
-  for (std::size_t i = 0; i < 100; ++i) {
-    scan.points[i].xyz_m = {static_cast<float>(i / 10) + 1.05F, 5.05F,
-                            0.05F + 0.1F * static_cast<float>(i % 10)};
-  }
-  SegmenterOptions options = SmallOptions();
-  options.interval_s = 0.1;
-  options.map_voxel_m = 0.01;
-  options.registration_voxel_m = 1.0;
-  const auto registered = [&](int count) {
-    options.max_registration_points = count;
-    Segmenter segmenter(options);
-    segmenter.AddScan(scan);
-    segmenter.Finish();
-    const SegmentCloud cloud = Drain(&segmenter).at(0);
-    EXPECT_EQ(cloud.registration_cells, count == 5 ? 5u : 10u);
-    std::vector<SegmentPoint> points = cloud.registration_points;
-    EXPECT_TRUE(std::is_sorted(points.begin(), points.end(),
-                               [](const auto& a, const auto& b) { return a.alpha < b.alpha; }));
-    return points;
-  };
-  EXPECT_EQ(registered(5).size(), 5u);
-  for (const int count : {10, 40}) {
-    std::map<int, int> by_cell;
-    for (const SegmentPoint& point : registered(count)) {
-      ++by_cell[static_cast<int>(point.p_body_m.x())];
-    }
-    EXPECT_EQ(by_cell.size(), 10u) << count;
-    for (const auto& [cell, points] : by_cell) EXPECT_NEAR(points, count / 10, 1) << cell;
-  }
-  EXPECT_EQ(registered(0).size(), 100u);
-  EXPECT_EQ(registered(1000).size(), 100u);
 }
 }  // namespace
 }  // namespace trajlo

@@ -34,14 +34,6 @@ TEST(VoxelFilter, KeepsTheFirstPointOfEachCellWithItsTime) {
     }
     ASSERT_EQ(kept.size(), expected.size());
     for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].alpha, expected[i]);
-
-    std::vector<std::size_t> first, others;
-    filter.Split(points, &first, &others);
-    ASSERT_EQ(first.size(), kept.size());
-    ASSERT_EQ(first.size() + others.size(), points.size());
-    for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(points[first[i]].alpha, kept[i].alpha);
-    first.insert(first.end(), others.begin(), others.end());
-    EXPECT_EQ(std::set<std::size_t>(first.begin(), first.end()).size(), points.size());
   }
 }
 }  // namespace
