@@ -16,8 +16,8 @@ namespace trajlo {
 bool IsUnsupported(const Window& window, const Segment& segment);
 
 /// Takes the weight from the points of such segments. A hand before the LiDAR moves with the body:
-/// its points would hold the body still. Returns whether any of them had one. A point has its
-/// weight again when it asks the map for its plane again.
+/// its points would hold the body still. Returns whether any of them had one. They have it again
+/// when the segment asks the map for planes again.
 bool SilenceUnsupported(Window* window);
 
 /// A point within this distance is on its plane: the error of a prediction after a short pause.

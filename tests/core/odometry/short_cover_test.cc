@@ -25,7 +25,7 @@ TEST_P(ShortCovers, AreFollowedByADoubtThatEndsSoon) {
   scenario.faults.cover_s = GetParam().duration_s;
   const testing::SimulatedRun run(scenario);
   EXPECT_FALSE(run.lost_at_ns);
-  EXPECT_LT(run.LargestError_m(), 0.4);
+  EXPECT_LT(run.LargestError_m(), 0.25);
   const double end_s = GetParam().from_s + GetParam().duration_s;
   for (std::size_t i = 0; i < run.poses.size(); ++i) {
     if (run.Time_s(i) < end_s + 1.0) continue;

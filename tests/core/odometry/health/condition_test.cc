@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/odometry/health/belief.h"
+#include "core/odometry/window/point_scatter.h"
 #include "tests/support/test_window.h"
 
 namespace trajlo {
@@ -29,6 +30,21 @@ TEST(WindowCondition, NamesTheDirectionThatNoPlaneHolds) {
   const WindowCondition condition = ConditionOf(window, TenShareAnError());
   EXPECT_NEAR(condition.smallest_eigenvalue, 0.0, 1e-6);
   EXPECT_NEAR(std::abs(condition.weak_direction[0]), 1.0, 1e-6);
+}
+
+TEST(WindowCondition, PointsThatScatterFartherThanTheyWereTakenToTellLess) {
+  Window window = testing::MakeTestWindow(18);
+  for (Segment& segment : window.segments) {
+    segment.registration = LinearizeSegment(segment.points, SE3(), SE3(), window.noise);
+  }
+  RegistrationOptions registration = TenShareAnError();
+  const auto sure = [&](double sigmas) {
+    registration.sigma_m = PointScatter(window) * sigmas;
+    return ConditionOf(window, registration).smallest_eigenvalue;
+  };
+  ASSERT_GT(sure(1.0), 0.0);
+  EXPECT_DOUBLE_EQ(sure(2.0), sure(1.0));
+  EXPECT_NEAR(sure(0.5), sure(1.0) / 4, 1e-9 * sure(1.0));
 }
 
 TEST(WindowCondition, WithoutPointsOrLeverArmNothingIsHeldAndAllIsFinite) {
