@@ -48,6 +48,7 @@ void Odometry::Finish() {
   if (search_ && search_->HasPoints()) Search(true);
   if (beginning_) Start();
   SettleWindow(std::numeric_limits<std::int64_t>::max());
+  SettleStretch();
   HandOnPoses();
 }
 
@@ -95,6 +96,7 @@ void Odometry::Step(SegmentCloud cloud) {
   BelieveOrRevert(predicted, statistics);
   LearnAndJudge(predicted.back(), &statistics);
   Watch(&statistics);
+  if (doubt_.IsSure() && !hindsight_.is_empty()) LookBack(&statistics);
   const int to_keep = SegmentsToKeep();
   while (window_.size() > to_keep) Leave(&statistics);
   Report(&statistics);
@@ -184,13 +186,14 @@ void Odometry::Leave(WindowStatistics* statistics) {
   const SE3 T_begin = window_.T_world_begin;
   // The first points agree with nothing.
   const bool is_of_the_world = !support_.was_supported() || MayEnterMap(window_.segments.front());
-  const Segment oldest = Marginalize(options_.marginalization, &window_);
+  Segment oldest = Marginalize(options_.marginalization, &window_);
   statistics->milliseconds_marginalize += watch.Milliseconds();
   if (is_of_the_world) {
     EnterMap(oldest.cloud, T_begin, oldest.T_world_end, &threads_, &map_);
   }
   map_.RemoveFar(oldest.T_world_end.t);
   statistics->milliseconds_map += watch.Milliseconds();
+  if (!hindsight_.is_empty()) hindsight_.AddSegment(std::move(oldest));
 }
 
 void Odometry::Report(WindowStatistics* statistics) {
@@ -212,31 +215,37 @@ void Odometry::SettleWindow(std::int64_t before_ns) {
   if (window_.begin_ns < before_ns) SettleFront();
 }
 
-/// The pose at the front of the window is final.
+/// The pose at the front of the window leaves it.
 void Odometry::SettleFront() {
   const Matrix6d covariance =
       on_pose_ ? PoseCovariance(AssembleWindow(window_), 0) : Matrix6d(Matrix6d::Zero());
   const bool is_lost = lost_at_ns_ && window_.begin_ns >= *lost_at_ns_;
   const unsigned flags = window_.begin_flags | (is_lost ? kFlagLost : 0U);
-  Settle({window_.begin_ns, window_.T_world_begin, flags}, covariance);
+  const LeavingPose leaving = {{window_.begin_ns, window_.T_world_begin, flags}, covariance};
+  attitude_.Add(window_.T_world_begin.q);
+  if (MustWait()) {
+    Wait(leaving);
+  } else {
+    Settle(leaving);
+  }
 }
 
 /// The trajectory begins where the map does: what was before it, nothing tells.
-void Odometry::Settle(const ControlPose& pose, const Matrix6d& covariance) {
+void Odometry::Settle(const LeavingPose& leaving) {
   if (trajectory_.empty() && !HasMap()) return;
-  if (first_pose_) Settle(*std::exchange(first_pose_, std::nullopt), Matrix6d::Zero());
-  if (trajectory_.empty()) segments_.NoteFirstPose(pose.t_ns);
-  trajectory_.Append(pose);
-  attitude_.Add(pose.T_world_body.q);
-  if (on_pose_) settled_.emplace_back(pose, motion_prior_.covariance_scale() * covariance);
+  if (first_pose_) Settle({*std::exchange(first_pose_, std::nullopt)});
+  if (trajectory_.empty()) segments_.NoteFirstPose(leaving.pose.t_ns);
+  trajectory_.Append(leaving.pose);
+  if (!on_pose_) return;
+  settled_.push_back({leaving.pose, motion_prior_.covariance_scale() * leaving.covariance});
 }
 
 /// When all else is done: the callback may throw.
 void Odometry::HandOnPoses() {
   while (!settled_.empty()) {
-    const auto [pose, covariance] = settled_.front();
+    const LeavingPose settled = settled_.front();
     settled_.pop_front();
-    on_pose_(pose, covariance);
+    on_pose_(settled.pose, settled.covariance);
   }
 }
 

@@ -22,6 +22,7 @@
 #include "core/odometry/start/beginning.h"
 #include "core/odometry/start/return_search.h"
 #include "core/odometry/trajectory/trajectory.h"
+#include "core/odometry/window/hindsight.h"
 #include "core/odometry/window/window.h"
 
 namespace trajlo {
@@ -59,15 +60,16 @@ class Odometry {
   void OnWindow(std::function<void(const WindowStatistics&)> callback) {
     on_window_ = std::move(callback);
   }
-  /// Called likewise for every control pose when it leaves the window, with the covariance of its
-  /// right perturbation [rho; theta] (m², m rad, rad²): that of the pose relative to the map in
-  /// view, by its last window, calibrated. What the map has drifted since the start is not in it.
+  /// Called likewise for every control pose when it is final, with the covariance of its right
+  /// perturbation [rho; theta] (m², m rad, rad²): that of the pose relative to the map in view, by
+  /// its last window, calibrated. A pose is final when it leaves the window, or up to 5 s later if
+  /// it is in doubt where the body is. What the map has drifted since the start is not in it.
   /// Computed only if this is set.
   void OnPose(std::function<void(const ControlPose&, const Matrix6d& covariance)> callback) {
     on_pose_ = std::move(callback);
   }
 
-  /// The control poses that have left the window (all of them after Finish).
+  /// The control poses that are final (all of them after Finish).
   const Trajectory& trajectory() const { return trajectory_; }
   const MapPyramid& map() const { return map_; }
   const RigCalibration& rig() const { return rig_; }
@@ -111,7 +113,12 @@ class Odometry {
   void HandOnPoses();
   void SettleWindow(std::int64_t before_ns);
   void SettleFront();
-  void Settle(const ControlPose& pose, const Matrix6d& covariance);
+  bool MustWait() const;
+  void Wait(const LeavingPose& leaving);
+  void LookBack(WindowStatistics* statistics);
+  std::optional<Window> Reestimate(Window joined, WindowStatistics* statistics);
+  void SettleStretch();
+  void Settle(const LeavingPose& leaving);
 
   const OdometryOptions options_;
   ThreadPool threads_;
@@ -127,9 +134,9 @@ class Odometry {
   MeanAttitude attitude_;
   std::optional<ReturnSearch> search_;  ///< While nobody knows where the body is.
   Window window_;
+  Hindsight hindsight_;  ///< While it is in doubt where the body is.
   Trajectory trajectory_;
-  /// Settled, and not handed on yet.
-  std::deque<std::pair<ControlPose, Matrix6d>> settled_;
+  std::deque<LeavingPose> settled_;  ///< Final, and not handed on yet.
   std::function<void(const WindowStatistics&)> on_window_;
   std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;

@@ -187,6 +187,7 @@ void Odometry::Search(bool is_last) {
 /// There was nothing yet that could be found.
 void Odometry::BeginAgain(const ReturnSweep& sweep) {
   SettleWindow(sweep.cloud.begin_ns);
+  SettleStretch();
   const unsigned flags = trajectory_.empty() ? 0U : kFlagGap;
   Begin({search_->TakeSegments(), window_.T_world_begin, flags});
 }
@@ -194,6 +195,10 @@ void Odometry::BeginAgain(const ReturnSweep& sweep) {
 /// The place is found: a new window begins there, and takes what has come since.
 void Odometry::Resume(const ReturnSweep& sweep) {
   SettleWindow(sweep.cloud.begin_ns);
+  if (sweep.cloud.IsInstant()) SettleStretch();
+  if (!hindsight_.is_empty() && hindsight_.EndNs() < sweep.cloud.begin_ns) {
+    hindsight_.AddGap(sweep.cloud.begin_ns);
+  }
   const SE3& T_world_begin = *sweep.T_world_begin;
   window_ = MakeWindow(sweep.cloud.begin_ns, T_world_begin);
   window_.prior = MakeAnchor(T_world_begin, kFoundSigma_m, kFoundSigma_rad);
@@ -221,6 +226,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
 void Odometry::GetLost(const ReturnSweep& sweep) {
   if (!lost_at_ns_) lost_at_ns_ = support_.supported_until_ns() + 1;
   SettleWindow(sweep.cloud.begin_ns);
+  SettleStretch();
   map_ = MapPyramid(options_.map);
   // What was usual there says nothing here.
   inlier_watch_ = InlierWatch();

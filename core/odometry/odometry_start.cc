@@ -74,7 +74,7 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
   if (duration_s > 0.0 && trajectory_.empty() && HasMap()) {
     first_pose_ = first;
   } else if (duration_s > 0.0) {
-    Settle(first, Matrix6d::Zero());
+    Settle({first});
   }
   window_ = MakeWindow(cloud.end_ns, T_end);
   window_.begin_flags = flags;

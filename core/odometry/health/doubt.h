@@ -25,6 +25,8 @@ class DoubtWatch {
 
   /// Why the newest pose is in doubt: flags of a window, or 0.
   unsigned flags() const { return flags_; }
+  /// Points hold the newest pose, and nothing speaks against it.
+  bool IsSure() const { return is_held_ && flags_ == 0; }
   /// How far the body may be from where it seems to be, while that is in doubt and the
   /// newest window has something to look for: its points hold it somewhere, or contradict the map.
   /// Three standard deviations of the motion that was not seen.
