@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/odometry/segments/choose_evenly.h"
+#include "core/odometry/segments/voxel_filter.h"
 #include "core/odometry/window/association.h"
 #include "core/odometry/window/points_to_world.h"
 #include "core/odometry/window/step_size.h"
@@ -17,6 +18,10 @@
 namespace trajlo {
 namespace {
 
+/// What tells a place from others takes up so many cells of this size. A hand before the LiDAR
+/// takes up half as many, however many points it has, and fits into corners everywhere.
+constexpr double kCell_m = 0.4;
+constexpr std::size_t kFewestCells = 100;
 /// At most this many places are refined.
 constexpr std::size_t kPlaces = 24;
 constexpr std::size_t kMaxPoints = 800;
@@ -194,6 +199,13 @@ class Hypothesis {
   int agreeing_ = 0;
 };
 
+/// Seen from the body, with which a hand moves.
+std::size_t CellsOf(const std::vector<SegmentPoint>& points) {
+  std::vector<SegmentPoint> one_each;
+  VoxelFilter(kCell_m).Filter(points, &one_each);
+  return one_each.size();
+}
+
 bool IsClear(const Hypothesis& best, const std::vector<Hypothesis>& all, std::size_t points) {
   if (best.agreeing() < kMinAgreement * static_cast<double>(points)) return false;
   if (best.agreeing() < kMinPrecision * best.with_plane()) return false;
@@ -212,6 +224,7 @@ std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d&
                                       const MapPyramid& map, const SearchRegion& region,
                                       const RegistrationOptions& registration,
                                       ThreadPool* threads) {
+  if (CellsOf(sweep.registration_points) < kFewestCells) return std::nullopt;
   const bool has_motion = sweep.end_ns > sweep.begin_ns;
   SegmentCloud thin;
   thin.lidar_origins_body_m = sweep.lidar_origins_body_m;

@@ -142,6 +142,21 @@ TEST(Relocalization, APlaceWhereTheMapHasNothingForMostPointsIsNotTaken) {
   EXPECT_FALSE(finds_with_twentieths_above_the_ceiling(11));
 }
 
+/// Many points of a few cells, as of a hand before the LiDAR; where they are, they fit perfectly.
+TEST(Relocalization, WhatIsSmallIsNoPlaceHoweverManyPointsItHas) {
+  const MapPyramid map = MapOf(SyntheticWorld().boxes);
+  SegmentCloud sweep = SweepOf(WorldAt(PoseAt(1.3, -0.6, 1.1)));
+  ASSERT_TRUE(Find(sweep, map));
+  std::vector<SegmentPoint>& points = sweep.registration_points;
+  std::sort(points.begin(), points.end(), [](const SegmentPoint& a, const SegmentPoint& b) {
+    return a.p_body_m.norm() < b.p_body_m.norm();
+  });
+  const std::vector<SegmentPoint> nearest(points.begin(), points.begin() + 80);
+  points.clear();
+  for (int i = 0; i < 10; ++i) points.insert(points.end(), nearest.begin(), nearest.end());
+  EXPECT_FALSE(Find(sweep, map));
+}
+
 TEST(Relocalization, APlaceBeyondTheRegionIsNotTaken) {
   const MapPyramid map = MapOf(SyntheticWorld().boxes);
   SearchRegion region = Everywhere();
