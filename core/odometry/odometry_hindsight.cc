@@ -11,7 +11,7 @@
 namespace trajlo {
 namespace {
 
-/// No pose waits longer. Behind more, the begin says little about the end.
+/// No pose waits longer. Over more time, the begin says little about the end.
 constexpr double kLongest_s = 5.0;
 
 int PointsOnPlanes(const Window& window, int segments) {
@@ -41,7 +41,8 @@ void Odometry::Wait(const LeavingPose& leaving) {
 
 /// Both ends of the stretch are known now. Its poses may be near the right ones, or far off: of the
 /// solutions from where they are, and from where the motion prior alone has them between the ends,
-/// the one that brings more points onto planes is taken. The present window stays as it is.
+/// the one that brings more points onto planes is taken. The present window stays as it is. (The
+/// map keeps the planes that were asked for, so later windows may differ by those.)
 void Odometry::LookBack(WindowStatistics* statistics) {
   hindsight_.Meet(window_);
   if (hindsight_.has_jumped()) {

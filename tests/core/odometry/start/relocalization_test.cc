@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/odometry/segments/choose_evenly.h"
 #include "tests/support/bytes_of.h"
 #include "tests/support/synthetic_world.h"
 
@@ -142,19 +143,20 @@ TEST(Relocalization, APlaceWhereTheMapHasNothingForMostPointsIsNotTaken) {
   EXPECT_FALSE(finds_with_twentieths_above_the_ceiling(11));
 }
 
-/// Many points of a few cells, as of a hand before the LiDAR; where they are, they fit perfectly.
-TEST(Relocalization, WhatIsSmallIsNoPlaceHoweverManyPointsItHas) {
+/// As those of a hand before the LiDAR, segment after segment.
+TEST(Relocalization, FewCellsAreNoPlaceHoweverManyPointsTheyHave) {
   const MapPyramid map = MapOf(SyntheticWorld().boxes);
   SegmentCloud sweep = SweepOf(WorldAt(PoseAt(1.3, -0.6, 1.1)));
-  ASSERT_TRUE(Find(sweep, map));
-  std::vector<SegmentPoint>& points = sweep.registration_points;
-  std::sort(points.begin(), points.end(), [](const SegmentPoint& a, const SegmentPoint& b) {
-    return a.p_body_m.norm() < b.p_body_m.norm();
-  });
-  const std::vector<SegmentPoint> nearest(points.begin(), points.begin() + 80);
-  points.clear();
-  for (int i = 0; i < 10; ++i) points.insert(points.end(), nearest.begin(), nearest.end());
-  EXPECT_FALSE(Find(sweep, map));
+  const std::vector<SegmentPoint> all = sweep.registration_points;
+  const auto finds_with_ten_points_each_at = [&](std::size_t places) {
+    sweep.registration_points.clear();
+    for (const SegmentPoint& point : ChooseEvenly(all, places)) {
+      sweep.registration_points.insert(sweep.registration_points.end(), 10, point);
+    }
+    return Find(sweep, map).has_value();
+  };
+  EXPECT_TRUE(finds_with_ten_points_each_at(300));
+  EXPECT_FALSE(finds_with_ten_points_each_at(80));
 }
 
 TEST(Relocalization, APlaceBeyondTheRegionIsNotTaken) {

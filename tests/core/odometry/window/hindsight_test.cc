@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <functional>
 #include <vector>
@@ -124,15 +125,27 @@ TEST(Hindsight, HandsOnEveryPoseOnceWithWhatBelongsToIt) {
   }
 }
 
-/// What the oldest pose said about the others stays in the prior.
+/// The oldest pose was held, and tied to the next one: so the next one is held when it has left.
 TEST(Hindsight, KeepsWhatIsKnownOfTheBeginWhenItsOldestPoseLeaves) {
+  Window window = WindowAt(0, Truth);
+  SmoothnessTerm tie;
+  tie.tau_expected = Minus(Truth(1), Truth(0));
+  tie.sqrt_information.setConstant(100.0);
+  window.segments.front().motion = tie;
   Hindsight hindsight;
-  Leave(0, kReturn, Truth, &hindsight);
+  hindsight.AddPose(window, 0, Matrix6d::Zero());
+  hindsight.AddSegment(window.segments.front());
+  Leave(1, kReturn, Truth, &hindsight);
   hindsight.TakeOldest({});
   const Window joined = hindsight.Join(WindowAt(kReturn, Truth));
   EXPECT_EQ(joined.begin_ns, kStep_ns);
   EXPECT_EQ(joined.size(), kReturn - 1 + kSegments);
-  EXPECT_GE(joined.prior.poses(), 1);
+  const std::vector<SE3> poses = joined.Poses();
+  EXPECT_LT(joined.prior.Residual(poses).norm(), 1e-6);
+  const Eigen::MatrixXd J = joined.prior.Jacobian(poses).leftCols(6);
+  const Matrix6d information = J.transpose() * J;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
+  EXPECT_GT(eigen.eigenvalues()[0], 5e3);
 }
 
 }  // namespace
