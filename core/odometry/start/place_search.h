@@ -19,6 +19,11 @@ struct SearchRegion {
   Eigen::Vector3d turn_axis_world = Eigen::Vector3d::UnitZ();
   double mean_turn_rad = 0.0;
   double max_turn_rad = 0.0;
+
+  /// Whether a position is in it, or outside by at most `margin_m`.
+  bool Holds(const Eigen::Vector3d& t_world, double margin_m) const {
+    return (t_world - center_world).norm() <= radius_m + margin_m;
+  }
 };
 
 /// Poses in `region` at which many points of a rigid sweep (body frame) fall into occupied cells of

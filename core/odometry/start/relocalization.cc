@@ -236,6 +236,8 @@ std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d&
   for (const SE3& place : FindPlaces(rigid, map.finest(), region, kPlaces, threads)) {
     Hypothesis hypothesis(thin, tau, map, threads);
     hypothesis.Place(place, registration);
+    // The refinement may slide along what holds no direction, to where the body cannot be.
+    if (!region.Holds(hypothesis.T_begin().t, kSame_m)) continue;
     const bool is_new = std::none_of(
         all.begin(), all.end(), [&](const Hypothesis& other) { return other.IsAt(hypothesis); });
     if (is_new) all.push_back(std::move(hypothesis));

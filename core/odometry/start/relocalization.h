@@ -26,7 +26,8 @@ struct SweepMotion {
 /// if it is clear: half of all points must speak for it; most that have a plane must be on it; they
 /// must hold all directions; and of those that speak for it or a rival alone, two of three must
 /// speak for it. So a hall with two equal ends, a corridor, and a scene that is not in the map give
-/// nothing. Nor does what is no larger than a hand before the LiDAR.
+/// nothing. Nor does what is no larger than a hand before the LiDAR, nor a place that the refinement
+/// reaches outside of `region`.
 std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d& tau,
                                       const MapPyramid& map, const SearchRegion& region,
                                       const RegistrationOptions& registration, ThreadPool* threads);

@@ -88,6 +88,22 @@ TEST(Relocalization, FindsAPlaceAnywhereInItsRegion) {
   }
 }
 
+TEST(Relocalization, APlaceThatTheRefinementReachesOutsideOfItsRegionIsNone) {
+  const MapPyramid map = MapOf(SyntheticWorld().boxes);
+  ThreadPool pool(2);
+  const auto finds_beside = [&](double distance_m) {
+    SearchRegion region;
+    region.center_world = kPlaces[0].t + Eigen::Vector3d(distance_m, 0.0, 0.0);
+    region.radius_m = 0.4;
+    region.q_world_body = {kPlaces[0].q};
+    return Relocalize(SweepOf(WorldAt(kPlaces[0])), Vector6d::Zero(), map, region, {}, &pool)
+        .has_value();
+  };
+  EXPECT_TRUE(finds_beside(0.6));
+  EXPECT_FALSE(finds_beside(1.1));
+  EXPECT_FALSE(finds_beside(1.4));
+}
+
 TEST(Relocalization, FindsTheMotionOfASweepThatIsRoughlyKnown) {
   const MapPyramid map = MapOf(SyntheticWorld().boxes);
   Vector6d tau;
