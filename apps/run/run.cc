@@ -101,8 +101,8 @@ void Run::Write() {
   WriteTextFile(folder_.flags(), FlagsCsv(Flags(), written_ns_), IfExists::kReplace);
   std::vector<CloudPoint> points;
   points.reserve(odometry_.map().finest().size());
-  odometry_.map().finest().ForEachPoint([&](const Eigen::Vector3d& p) {
-    points.push_back({p.cast<float>(), 0.0F});
+  odometry_.map().finest().ForEachPoint([&](const MapPoint& point) {
+    points.push_back({point.place_world.cast<float>(), 0.0F});
   });
   WritePointCloud(folder_.map(), points, CloudFields::kXyz, IfExists::kReplace);
   summary_->map_points = points.size();

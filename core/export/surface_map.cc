@@ -57,21 +57,20 @@ void SurfaceMap::Add(const PlacedScan& scan) {
 
 std::vector<Surfel> SurfaceMap::Surfels() const {
   std::vector<Surfel> surfels;
-  std::vector<Eigen::Vector3d> places;
+  std::vector<MapPoint> points;
   surfels.reserve(cells_.size());
-  places.reserve(cells_.size());
+  points.reserve(cells_.size());
   for (const Cell& cell : cells_) {
-    places.emplace_back(cell.sum_m / cell.points);
-    surfels.push_back(
-        {places.back(), static_cast<float>(cell.sum_intensity / cell.points), cell.seen_ns});
+    const Eigen::Vector3d place = cell.sum_m / cell.points;
+    points.push_back({place, cell.seen_from_m - place.cast<float>()});
+    surfels.push_back({place, static_cast<float>(cell.sum_intensity / cell.points), cell.seen_ns});
   }
   KdTreeIndex tree;
-  tree.Add(places);
+  tree.Add(points);
   Neighbors near;
   for (std::size_t i = 0; i < surfels.size(); ++i) {
-    tree.Nearest(places[i], kNeighbors, &near);
-    FitNormal(near, kReachInVoxels * voxel_m_, cells_[i].seen_from_m - places[i].cast<float>(),
-              &surfels[i]);
+    tree.Nearest(points[i].place_world, kNeighbors, &near);
+    FitNormal(near, kReachInVoxels * voxel_m_, points[i].to_sensor_world, &surfels[i]);
   }
   return surfels;
 }

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/odometry/map/map_pyramid.h"
+#include "tests/support/map_points.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo {
@@ -33,7 +34,7 @@ void FindPlanes(benchmark::State& state, MapKind kind, bool shared_planes, int l
   options.finest.shared_planes = shared_planes;
   options.levels = levels;
   MapPyramid map(options);
-  map.Insert(SurfacePoints(400000, 1));
+  map.Insert(testing::MapPoints(SurfacePoints(400000, 1)));
   constexpr std::size_t kBatch = MapPyramid::kMaxBatch;
   std::vector<PlaneQuery> queries;
   for (const Eigen::Vector3d& place : SurfacePoints(kBatch * 300, 2)) {
@@ -59,8 +60,8 @@ BENCHMARK_CAPTURE(FindPlanes, own_kd_tree, MapKind::kKdTree, false, 1);
 
 void InsertSegment(benchmark::State& state) {
   MapPyramid map(MapPyramidOptions{});
-  map.Insert(SurfacePoints(200000, 1));
-  const auto segment = SurfacePoints(3000, 3);
+  map.Insert(testing::MapPoints(SurfacePoints(200000, 1)));
+  const auto segment = testing::MapPoints(SurfacePoints(3000, 3));
   for (auto _ : state) map.Insert(segment);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(segment.size()));
 }

@@ -146,7 +146,8 @@ py::array_t<double> OdometrySession::MapPoints() const {
   const VoxelHashMap& points = odometry().map().finest();
   py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
   double* out = array.mutable_data();
-  points.ForEachPoint([&](const Eigen::Vector3d& p) { out = std::copy_n(p.data(), 3, out); });
+  points.ForEachPoint(
+      [&](const MapPoint& point) { out = std::copy_n(point.place_world.data(), 3, out); });
   return array;
 }
 

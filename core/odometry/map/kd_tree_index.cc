@@ -9,10 +9,10 @@ namespace trajlo {
 /// nanoflann keeps a logarithmic number of trees, so that points may be added one after another.
 struct KdTreeIndex::Index {
   struct Cloud {
-    std::vector<Eigen::Vector3d> points;
+    std::vector<MapPoint> points;
     std::size_t kdtree_get_point_count() const { return points.size(); }
     double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-      return points[i][static_cast<Eigen::Index>(axis)];
+      return points[i].place_world[static_cast<Eigen::Index>(axis)];
     }
     template <typename Box>
     bool kdtree_get_bbox(Box&) const {
@@ -30,12 +30,12 @@ struct KdTreeIndex::Index {
 KdTreeIndex::KdTreeIndex() : index_(std::make_unique<Index>()) {}
 KdTreeIndex::~KdTreeIndex() = default;
 
-void KdTreeIndex::Add(const std::vector<Eigen::Vector3d>& points_world) {
-  if (points_world.empty()) return;
-  std::vector<Eigen::Vector3d>& points = index_->cloud.points;
-  const std::size_t first = points.size();
-  points.insert(points.end(), points_world.begin(), points_world.end());
-  index_->tree.addPoints(first, points.size() - 1);
+void KdTreeIndex::Add(const std::vector<MapPoint>& points) {
+  if (points.empty()) return;
+  std::vector<MapPoint>& all = index_->cloud.points;
+  const std::size_t first = all.size();
+  all.insert(all.end(), points.begin(), points.end());
+  index_->tree.addPoints(first, all.size() - 1);
 }
 
 void KdTreeIndex::Clear() { index_ = std::make_unique<Index>(); }
@@ -52,7 +52,9 @@ void KdTreeIndex::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* 
   index_->tree.findNeighbors(result, query_world.data(), {});
   neighbors->count = static_cast<int>(result.size());
   for (int i = 0; i < neighbors->count; ++i) {
-    const Eigen::Vector3d p = index_->cloud.points[indices[i]] - query_world;
+    const MapPoint& found = index_->cloud.points[indices[i]];
+    const Eigen::Vector3d p = found.place_world - query_world;
+    neighbors->seen_from[i] = SeenFrom(found.to_sensor_world);
     neighbors->squared_distance[i] = static_cast<float>(squared[i]);
     neighbors->x[i] = static_cast<float>(p.x());
     neighbors->y[i] = static_cast<float>(p.y());

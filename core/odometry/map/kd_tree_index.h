@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/odometry/map/map_point.h"
 #include "core/odometry/map/neighbors.h"
 
 namespace trajlo {
@@ -15,7 +16,7 @@ class KdTreeIndex {
   KdTreeIndex();
   ~KdTreeIndex();
 
-  void Add(const std::vector<Eigen::Vector3d>& points_world);
+  void Add(const std::vector<MapPoint>& points);
   void Clear();
   void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const;
 

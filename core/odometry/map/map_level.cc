@@ -15,8 +15,8 @@ MapLevel::MapLevel(const MapOptions& options, const PlaneFitOptions& plane)
   if (options.shared_planes) cells_.emplace();
 }
 
-std::vector<Eigen::Vector3d> MapLevel::Insert(const std::vector<Eigen::Vector3d>& points_world) {
-  std::vector<Eigen::Vector3d> accepted = points_.Insert(points_world);
+std::vector<MapPoint> MapLevel::Insert(const std::vector<MapPoint>& points) {
+  std::vector<MapPoint> accepted = points_.Insert(points);
   if (tree_) tree_->Add(accepted);
   if (cells_) cells_->Resize(points_.site_capacity());
   return accepted;
@@ -30,9 +30,9 @@ void MapLevel::RemoveFar(const Eigen::Vector3d& center_world) {
     for (const std::uint32_t site : changed) cells_->Clear(site);
   }
   if (tree_) {
-    std::vector<Eigen::Vector3d> left;
+    std::vector<MapPoint> left;
     left.reserve(points_.size());
-    points_.ForEachPoint([&](const Eigen::Vector3d& p) { left.push_back(p); });
+    points_.ForEachPoint([&](const MapPoint& point) { left.push_back(point); });
     tree_->Clear();
     tree_->Add(left);
   }

@@ -45,7 +45,7 @@ class MapLevel {
   MapLevel(const MapOptions& options, const PlaneFitOptions& plane);
 
   /// See VoxelHashMap.
-  std::vector<Eigen::Vector3d> Insert(const std::vector<Eigen::Vector3d>& points_world);
+  std::vector<MapPoint> Insert(const std::vector<MapPoint>& points);
   void RemoveFar(const Eigen::Vector3d& center_world);
 
   /// An eighth of a voxel: floor(p / cell size). That of the next coarser level has half the

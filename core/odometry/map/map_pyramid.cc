@@ -65,11 +65,11 @@ MapPyramid::MapPyramid(const MapPyramidOptions& options) : plane_(options.plane)
   }
 }
 
-void MapPyramid::Insert(const std::vector<Eigen::Vector3d>& points_world) {
+void MapPyramid::Insert(const std::vector<MapPoint>& points) {
   ++version_;
   // Points that a level has no use for, because it has others there, are hardly of use to coarser
   // ones.
-  std::vector<Eigen::Vector3d> offered = points_world;
+  std::vector<MapPoint> offered = points;
   for (MapLevel& level : levels_) offered = level.Insert(offered);
 }
 
@@ -100,8 +100,9 @@ void MapPyramid::AskLevel(int i, Batch* batch) const {
         level.shares_planes() ? level.CenterOf(cells[j]) : asked.place_world;
     const FittedPlane plane = level.PlaneAt(*sites[j], cells[j], center_world);
     if (!plane.exists() || plane.width_m < min_width_m_) continue;
-    Batch::Query& query = batch->queries[q];
     const bool is_grazed = IsGrazed(plane, asked.ray_world);
+    if (!is_grazed && plane.IsBehind(asked.ray_world)) continue;
+    Batch::Query& query = batch->queries[q];
     if (!query.IsReplacedBy(plane, is_grazed, asked.place_world)) continue;
     query.plane = plane;
     query.center_world = center_world;

@@ -64,10 +64,10 @@ class MapPyramid {
   /// Throws std::invalid_argument unless there are 1 to MapPyramidOptions::kMaxLevels levels.
   explicit MapPyramid(const MapPyramidOptions& options);
 
-  void Insert(const std::vector<Eigen::Vector3d>& points_world);
-  /// Removes from `points_world` what Insert() would not add anyway.
-  void DropRefused(std::vector<Eigen::Vector3d>* points_world) const {
-    levels_.front().points().DropRefused(points_world);
+  void Insert(const std::vector<MapPoint>& points);
+  /// Removes from `points` what Insert() would not add anyway.
+  void DropRefused(std::vector<MapPoint>* points) const {
+    levels_.front().points().DropRefused(points);
   }
   /// How far points lie from their planes (a standard deviation), as far as that is known. Planes
   /// that are hardly wider are noise: FindPlanes() takes a coarser one, or none.
@@ -87,7 +87,7 @@ class MapPyramid {
   /// Another number after each insertion.
   std::int64_t version() const { return version_; }
   /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
-  /// taken only where there is no other.
+  /// taken only where there is no other, and none that is only known from its other side.
   void FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const;
 
   const VoxelHashMap& finest() const { return levels_.front().points(); }

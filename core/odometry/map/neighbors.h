@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "core/odometry/map/seen_from.h"
 #include "manifolds/eigen_abi.h"
 
 namespace trajlo {
@@ -17,6 +18,7 @@ struct Neighbors {
   int count = 0;
   float squared_distance[kMaxNeighbors];
   float x[kMaxNeighbors], y[kMaxNeighbors], z[kMaxNeighbors];
+  SeenFrom seen_from[kMaxNeighbors];
 };
 
 }  // namespace trajlo

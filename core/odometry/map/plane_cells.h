@@ -31,7 +31,7 @@ class PlaneCells {
   /// Forgets the planes of a site. Not while another thread is in Get().
   void Clear(std::uint32_t site) {
     for (std::uint32_t i = 0; i < kPerSite; ++i) {
-      At(site, i).fitted_at.store(kNever, std::memory_order_relaxed);
+      At(site, i).state.store(kNever, std::memory_order_relaxed);
     }
   }
 
@@ -44,15 +44,15 @@ class PlaneCells {
   FittedPlane Get(std::uint32_t site, std::uint32_t cell, std::uint32_t points_around,
                   const Fit& fit) const {
     Cell& kept = At(site, cell);
-    std::uint32_t fitted_at = kept.fitted_at.load(std::memory_order_acquire);
-    if (IsKept(fitted_at, points_around)) return kept.plane;
-    const bool is_mine =
-        fitted_at != kClaimed &&
-        kept.fitted_at.compare_exchange_strong(fitted_at, kClaimed, std::memory_order_relaxed);
+    std::uint32_t state = kept.state.load(std::memory_order_acquire);
+    if (IsKept(state >> 1, points_around)) return {kept.numbers, (state & kOneSided) != 0};
+    const bool is_mine = state != kClaimed && kept.state.compare_exchange_strong(
+                                                  state, kClaimed, std::memory_order_relaxed);
     FittedPlane plane = fit();
     if (is_mine) {
-      kept.plane = plane;
-      kept.fitted_at.store(points_around, std::memory_order_release);
+      kept.numbers = plane;
+      kept.state.store(points_around << 1 | (plane.is_one_sided ? kOneSided : 0U),
+                       std::memory_order_release);
     }
     return plane;
   }
@@ -62,19 +62,21 @@ class PlaneCells {
   static constexpr std::uint32_t kSitesPerBlockLog2 = 13;
   static constexpr std::uint32_t kNever = 0;
   static constexpr std::uint32_t kClaimed = ~std::uint32_t{0};
+  static constexpr std::uint32_t kOneSided = 1;
 
   struct alignas(32) Cell {
-    FittedPlane plane;
-    std::atomic<std::uint32_t> fitted_at{kNever};  ///< Points around its site at the fit.
+    PlaneNumbers numbers;
+    /// Twice the number of points around its site at the fit, and kOneSided.
+    std::atomic<std::uint32_t> state{kNever};
 
     Cell() = default;
     Cell(const Cell& other)
-        : plane(other.plane), fitted_at(other.fitted_at.load(std::memory_order_relaxed)) {}
+        : numbers(other.numbers), state(other.state.load(std::memory_order_relaxed)) {}
   };
 
   static bool IsKept(std::uint32_t fitted_at, std::uint32_t points_around) {
     // A claimed one counts more points than there can be.
-    return fitted_at != kNever && fitted_at <= points_around &&
+    return fitted_at > 0 && fitted_at <= points_around &&
            points_around - fitted_at <= fitted_at / 8 + 1;
   }
 

@@ -39,6 +39,20 @@ struct Moments {
   }
 };
 
+/// Turns the normal to where the neighbours were seen from, if they were seen from one side.
+void FindSide(const Neighbors& neighbors, FittedPlane* plane) {
+  int in_front = 0, behind = 0;
+  for (int i = 0; i < neighbors.count; ++i) {
+    const float cosine = plane->normal_world.dot(neighbors.seen_from[i].Direction());
+    in_front += cosine > SeenFrom::kPrecision ? 1 : 0;
+    behind += cosine < -SeenFrom::kPrecision ? 1 : 0;
+  }
+  plane->is_one_sided = (in_front == 0) != (behind == 0);
+  if (in_front >= behind) return;
+  plane->normal_world = -plane->normal_world;
+  plane->offset_m = -plane->offset_m;
+}
+
 /// l0: the root mean square of e_i / (1 - h_i). `axes` are the principal ones, of which the normal
 /// is the first, and `variances` are along them.
 double Thickness(const Neighbors& neighbors, const Moments& moments, const Eigen::Matrix3d& axes,
@@ -86,6 +100,7 @@ FittedPlane FitPlane(const Neighbors& neighbors, const Eigen::Vector3d& center_w
   plane.width_m = static_cast<float>(width_m);
   plane.normal_variance_rad2 =
       static_cast<float>(std::max(0.0, variances[0]) / (std::max(1, n - 3) * variances[1]));
+  FindSide(neighbors, &plane);
   return plane;
 }
 

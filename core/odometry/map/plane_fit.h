@@ -61,7 +61,7 @@ struct PlaneFitOptions {
 };
 
 /// The plane nᵀ (x - center) = offset about a center in the world frame that is kept elsewhere.
-struct FittedPlane {
+struct PlaneNumbers {
   Eigen::Vector3f normal_world = Eigen::Vector3f::Zero();
   float offset_m = 0.0F;
   float thickness_m = 0.0F;  ///< l0
@@ -69,8 +69,18 @@ struct FittedPlane {
   /// How far the noise of n neighbours tilts the normal, about the longer axis:
   /// sum e_i² / (n (n - 3) l1²).
   float normal_variance_rad2 = 0.0F;
+};
+
+struct FittedPlane : PlaneNumbers {
+  /// No neighbour was seen from behind: the normal points to where they were seen from.
+  bool is_one_sided = false;
 
   bool exists() const { return width_m > 0.0F; }
+  /// Whether a ray from a sensor meets the plane from a side from which it was never seen: what it
+  /// hits is the other side of a door, or of a bridge.
+  bool IsBehind(const Eigen::Vector3f& ray_world) const {
+    return is_one_sided && normal_world.dot(ray_world) > 0.0F;
+  }
 };
 
 /// The plane through the neighbours of `center_world` by principal component analysis; one that

@@ -24,6 +24,8 @@ struct VoxelHashMap::Candidates {
   static constexpr int kMax = 7 * kMaxPointsPerVoxel + Block::kCapacity;
   int count = 0;
   float squared_distance[kMax], x[kMax], y[kMax], z[kMax];
+  /// Where the point is: four times its block, and which of the block.
+  std::uint32_t at[kMax];
 };
 
 VoxelHashMap::VoxelHashMap(double voxel_size_m, double min_point_spacing_m, double radius_m)
@@ -64,7 +66,8 @@ bool VoxelHashMap::HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) con
   return count < kMaxPointsPerVoxel;
 }
 
-void VoxelHashMap::Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p) {
+void VoxelHashMap::Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p,
+                          SeenFrom seen_from) {
   VoxelIndex::Entry& entry = index_[slot];
   if (entry.block == VoxelIndex::kNoBlock) entry.block = NewBlock(key);
   std::uint32_t last = entry.block;
@@ -75,9 +78,9 @@ void VoxelHashMap::Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eige
     last = next;
   }
   Block& points = blocks_[last];
-  points.x[points.count] = p.x();
-  points.y[points.count] = p.y();
-  points.z[points.count] = p.z();
+  points.x[points.count] = seen_from.PutInto(p.x(), 0);
+  points.y[points.count] = seen_from.PutInto(p.y(), 1);
+  points.z[points.count] = seen_from.PutInto(p.z(), 2);
   ++points.count;
   ++point_count_;
 }
@@ -96,15 +99,14 @@ void VoxelHashMap::AddAround(VoxelIndex::Entry* entry) {
   }
 }
 
-std::vector<Eigen::Vector3d> VoxelHashMap::Insert(
-    const std::vector<Eigen::Vector3d>& points_world) {
-  std::vector<Eigen::Vector3d> accepted;
+std::vector<MapPoint> VoxelHashMap::Insert(const std::vector<MapPoint>& points) {
+  std::vector<MapPoint> accepted;
   std::array<VoxelKey, kBatch> keys;
   std::array<std::array<VoxelIndex::Slot, 7>, kBatch> around;
-  for (std::size_t first = 0; first < points_world.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, points_world.size() - first);
+  for (std::size_t first = 0; first < points.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, points.size() - first);
     for (std::size_t i = 0; i < count; ++i) {
-      keys[i] = KeyOf(points_world[first + i]);
+      keys[i] = KeyOf(points[first + i].place_world);
       around[i][0] = index_.FindOrAdd(keys[i]);
       index_.Prefetch(around[i][0]);
     }
@@ -114,11 +116,11 @@ std::vector<Eigen::Vector3d> VoxelHashMap::Insert(
     }
     std::size_t placed = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3d& point = points_world[first + i];
-      const Eigen::Vector3f p = (point - CornerOf(keys[i])).cast<float>();
+      const MapPoint& point = points[first + i];
+      const Eigen::Vector3f p = (point.place_world - CornerOf(keys[i])).cast<float>();
       const VoxelIndex::Slot slot = around[i][0];
       if (!HasRoomFor(index_[slot].block, p)) continue;
-      Append(slot, keys[i], p);
+      Append(slot, keys[i], p, SeenFrom(point.to_sensor_world));
       accepted.push_back(point);
       around[placed][0] = slot;
       for (std::size_t f = 0; f < 6; ++f) {
@@ -134,15 +136,15 @@ std::vector<Eigen::Vector3d> VoxelHashMap::Insert(
   return accepted;
 }
 
-void VoxelHashMap::DropRefused(std::vector<Eigen::Vector3d>* points_world) const {
+void VoxelHashMap::DropRefused(std::vector<MapPoint>* all) const {
   std::array<VoxelKey, kBatch> keys;
   std::array<VoxelIndex::Slot, kBatch> slots;
   std::size_t kept = 0;
-  for (std::size_t first = 0; first < points_world->size(); first += kBatch) {
-    Eigen::Vector3d* points = &(*points_world)[first];
-    const std::size_t count = std::min(kBatch, points_world->size() - first);
+  for (std::size_t first = 0; first < all->size(); first += kBatch) {
+    MapPoint* points = &(*all)[first];
+    const std::size_t count = std::min(kBatch, all->size() - first);
     for (std::size_t i = 0; i < count; ++i) {
-      keys[i] = KeyOf(points[i]);
+      keys[i] = KeyOf(points[i].place_world);
       slots[i] = index_.Find(keys[i]);
       if (slots[i] != VoxelIndex::kNoSlot) index_.Prefetch(slots[i]);
     }
@@ -153,11 +155,11 @@ void VoxelHashMap::DropRefused(std::vector<Eigen::Vector3d>* points_world) const
       if (blocks[i] != VoxelIndex::kNoBlock) __builtin_prefetch(&blocks_[blocks[i]]);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3f p = (points[i] - CornerOf(keys[i])).cast<float>();
-      if (HasRoomFor(blocks[i], p)) (*points_world)[kept++] = points[i];
+      const Eigen::Vector3f p = (points[i].place_world - CornerOf(keys[i])).cast<float>();
+      if (HasRoomFor(blocks[i], p)) (*all)[kept++] = points[i];
     }
   }
-  points_world->resize(kept);
+  all->resize(kept);
 }
 
 void VoxelHashMap::DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed) {
@@ -215,6 +217,7 @@ void VoxelHashMap::Gather(std::uint32_t block, const Eigen::Vector3f& shift,
       candidates->x[first + i] = x;
       candidates->y[first + i] = y;
       candidates->z[first + i] = z;
+      candidates->at[first + i] = Block::kCapacity * block + static_cast<std::uint32_t>(i);
       candidates->squared_distance[first + i] = dx * dx + dy * dy + dz * dz;
     }
     candidates->count += static_cast<int>(points.count);
@@ -246,7 +249,8 @@ void VoxelHashMap::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors*
   TakeNearest(candidates, k, neighbors);
 }
 
-void VoxelHashMap::TakeNearest(const Candidates& candidates, int wanted, Neighbors* neighbors) {
+void VoxelHashMap::TakeNearest(const Candidates& candidates, int wanted,
+                               Neighbors* neighbors) const {
   const int k = std::clamp(wanted, 1, kMaxNeighbors);
   // Sorted by insertion. The bits of a positive float are in the order of its value, and the index
   // below them decides between equals.
@@ -268,14 +272,18 @@ void VoxelHashMap::TakeNearest(const Candidates& candidates, int wanted, Neighbo
     neighbors->x[i] = candidates.x[c];
     neighbors->y[i] = candidates.y[c];
     neighbors->z[i] = candidates.z[c];
+    const Block& block = blocks_[candidates.at[c] / Block::kCapacity];
+    const std::uint32_t in_block = candidates.at[c] % Block::kCapacity;
+    neighbors->seen_from[i] = SeenFrom::Of(block.x[in_block], block.y[in_block], block.z[in_block]);
   }
 }
 
-void VoxelHashMap::ForEachPoint(const std::function<void(const Eigen::Vector3d&)>& visit) const {
+void VoxelHashMap::ForEachPoint(const std::function<void(const MapPoint&)>& visit) const {
   for (const Block& block : blocks_) {
     const Eigen::Vector3d corner = CornerOf(block.key);
     for (std::uint32_t i = 0; i < block.count; ++i) {
-      visit(corner + Eigen::Vector3d(block.x[i], block.y[i], block.z[i]));
+      const float x = block.x[i], y = block.y[i], z = block.z[i];
+      visit({corner + Eigen::Vector3d(x, y, z), SeenFrom::Of(x, y, z).Direction()});
     }
   }
 }

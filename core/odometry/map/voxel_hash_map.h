@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/odometry/map/huge_page_allocator.h"
+#include "core/odometry/map/map_point.h"
 #include "core/odometry/map/neighbors.h"
 #include "core/odometry/map/voxel_index.h"
 
@@ -31,10 +32,10 @@ class VoxelHashMap {
 
   /// Adds points in the given order, each if its voxel has room and no point too near. Returns
   /// those added.
-  std::vector<Eigen::Vector3d> Insert(const std::vector<Eigen::Vector3d>& points_world);
+  std::vector<MapPoint> Insert(const std::vector<MapPoint>& points);
 
-  /// Removes from `points_world` what has no room: Insert() would not add it now, nor after others.
-  void DropRefused(std::vector<Eigen::Vector3d>* points_world) const;
+  /// Removes from `points` what has no room: Insert() would not add it now, nor after others.
+  void DropRefused(std::vector<MapPoint>* points) const;
 
   /// Drops what is farther than the radius from `center_world`. Appends to `changed` the numbers of
   /// all sites that lost points, once or more; those of voxels that are no longer sites may be
@@ -51,10 +52,11 @@ class VoxelHashMap {
   double min_point_spacing_m() const { return spacing_; }
   /// Number of points.
   std::size_t size() const { return point_count_; }
-  void ForEachPoint(const std::function<void(const Eigen::Vector3d&)>& visit) const;
+  void ForEachPoint(const std::function<void(const MapPoint&)>& visit) const;
 
  private:
   /// Up to four points of a voxel, relative to its corner: a cache line. Most voxels need one.
+  /// Their coordinates hold from where they were seen, too: SeenFrom.
   struct alignas(64) Block {
     static constexpr int kCapacity = 4;
     float x[kCapacity] = {}, y[kCapacity] = {}, z[kCapacity] = {};
@@ -71,14 +73,15 @@ class VoxelHashMap {
   Eigen::Vector3d CornerOf(const VoxelKey& key) const { return voxel_size_ * key.cast<double>(); }
   /// Whether a voxel, given by its first block, is not full and has no point that is too near.
   bool HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) const;
-  void Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p);
+  void Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p,
+              SeenFrom seen_from);
   std::uint32_t NewBlock(const VoxelKey& key);
   /// Counts one more point around a voxel.
   void AddAround(VoxelIndex::Entry* entry);
   void DropVoxel(const VoxelKey& key, std::vector<std::uint32_t>* changed);
   void Gather(std::uint32_t block, const Eigen::Vector3f& shift, const Eigen::Vector3f& query,
               Candidates* candidates) const;
-  static void TakeNearest(const Candidates& candidates, int wanted, Neighbors* neighbors);
+  void TakeNearest(const Candidates& candidates, int wanted, Neighbors* neighbors) const;
 
   double voxel_size_, inverse_size_, spacing_, radius_;
   VoxelIndex index_;

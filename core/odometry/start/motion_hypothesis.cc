@@ -40,7 +40,8 @@ MotionHypothesis::MotionHypothesis(const std::vector<SegmentPoint>& map_points,
                                    ThreadPool* threads)
     : T_end_(se3::Exp(tau)) {
   MapPyramid map(map_options);
-  map.Insert(PointsToWorld({SE3(), T_end_}, map_points));
+  const std::vector<LidarPath> lidars = LidarPaths(lidar_origins_body_m, SE3(), T_end_);
+  map.Insert(ToMapPoints({SE3(), T_end_}, lidars, map_points.data(), map_points.size()));
   SegmentAssociation().Associate(second_half, lidar_origins_body_m, SE3(), T_end_, map, threads,
                                  &points_);
 }

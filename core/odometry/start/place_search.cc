@@ -38,7 +38,8 @@ class Occupancy {
   Occupancy(const VoxelHashMap& map, const Eigen::Vector3d& center, double reach_m, double cell_m)
       : cell_m_(cell_m) {
     std::vector<Cell> occupied;
-    map.ForEachPoint([&](const Eigen::Vector3d& p) {
+    map.ForEachPoint([&](const MapPoint& point) {
+      const Eigen::Vector3d& p = point.place_world;
       if ((p - center).norm() > reach_m) return;
       occupied.emplace_back((p / cell_m_).array().floor().cast<int>());
     });

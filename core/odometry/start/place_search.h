@@ -20,9 +20,9 @@ struct SearchRegion {
   double mean_turn_rad = 0.0;
   double max_turn_rad = 0.0;
 
-  /// Whether a position is in it, or outside by at most `margin_m`.
-  bool Holds(const Eigen::Vector3d& t_world, double margin_m) const {
-    return (t_world - center_world).norm() <= radius_m + margin_m;
+  /// Whether a position is in it.
+  bool Holds(const Eigen::Vector3d& t_world) const {
+    return (t_world - center_world).norm() <= radius_m;
   }
 };
 

@@ -48,7 +48,7 @@ constexpr double kMinAgreement = 0.5;
 constexpr double kMinPrecision = 0.6;
 /// ... this many times the points of a rival, among those that speak for one of the two alone, and
 /// this share of all points, ...
-constexpr double kMinRatio = 2.0;
+constexpr double kMinRatio = 3.0;
 constexpr double kMinDisputed = 0.03;
 /// ... and in every direction this share of the information about translation.
 constexpr double kWeakShare = 0.01;
@@ -237,7 +237,7 @@ std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d&
     Hypothesis hypothesis(thin, tau, map, threads);
     hypothesis.Place(place, registration);
     // The refinement may slide along what holds no direction, to where the body cannot be.
-    if (!region.Holds(hypothesis.T_begin().t, kSame_m)) continue;
+    if (!region.Holds(hypothesis.T_begin().t)) continue;
     const bool is_new = std::none_of(
         all.begin(), all.end(), [&](const Hypothesis& other) { return other.IsAt(hypothesis); });
     if (is_new) all.push_back(std::move(hypothesis));

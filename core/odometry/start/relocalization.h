@@ -24,10 +24,10 @@ struct SweepMotion {
 /// and judged against each other. A point speaks for a place if it lies on a plane there, and its
 /// ray goes through nothing that the map has. The place with the most such points is returned only
 /// if it is clear: half of all points must speak for it; most that have a plane must be on it; they
-/// must hold all directions; and of those that speak for it or a rival alone, two of three must
+/// must hold all directions; and of those that speak for it or a rival alone, three of four must
 /// speak for it. So a hall with two equal ends, a corridor, and a scene that is not in the map give
-/// nothing. Nor does what is no larger than a hand before the LiDAR, nor a place that the refinement
-/// reaches outside of `region`.
+/// nothing. Nor does what is no larger than a hand before the LiDAR, nor a place that the
+/// refinement reaches outside of `region`.
 std::optional<SweepMotion> Relocalize(const SegmentCloud& sweep, const Vector6d& tau,
                                       const MapPyramid& map, const SearchRegion& region,
                                       const RegistrationOptions& registration, ThreadPool* threads);

@@ -27,11 +27,8 @@ std::size_t SegmentAssociation::Begin(const std::vector<SegmentPoint>& points,
   cells_.resize(points.size(), VoxelKey::Constant(std::numeric_limits<int>::min()));
   planes_.resize(points.size());
   const std::size_t chunks = (points.size() + kBatch - 1) / kBatch;
-  round_.emplace(
-      Round{&points, &map, has_grown, SegmentMotion(T_begin, T_end), {}, std::vector<int>(chunks)});
-  for (const Eigen::Vector3d& origin : lidar_origins_body_m) {
-    round_->lidars.push_back({T_begin * origin, T_end * origin - T_begin * origin});
-  }
+  round_.emplace(Round{&points, &map, has_grown, SegmentMotion(T_begin, T_end),
+                       LidarPaths(lidar_origins_body_m, T_begin, T_end), std::vector<int>(chunks)});
   return chunks;
 }
 
@@ -52,8 +49,7 @@ void SegmentAssociation::Look(std::size_t chunk) {
     const bool has_answer = !round_->has_grown || found[i].exists();
     if (has_answer && map.IsAround(places[i], cells[i])) continue;
     cells[i] = map.CellOf(places[i]);
-    const LidarPath& lidar = round_->lidars[points[i].lidar];
-    const Eigen::Vector3d origin = lidar.begin_world + points[i].alpha * lidar.way_world;
+    const Eigen::Vector3d origin = round_->lidars[points[i].lidar].At(points[i].alpha);
     queries[asked] = {places[i], (places[i] - origin).cast<float>()};
     asking[asked++] = i;
   }

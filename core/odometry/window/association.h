@@ -9,6 +9,7 @@
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_cloud.h"
+#include "core/odometry/window/lidar_path.h"
 #include "core/odometry/window/step_size.h"
 #include "factors/registration_point.h"
 #include "manifolds/se3_interpolation.h"
@@ -46,10 +47,6 @@ class SegmentAssociation {
                 std::vector<RegistrationPoint>* associated);
 
  private:
-  /// A LiDAR on its way through a segment.
-  struct LidarPath {
-    Eigen::Vector3d begin_world, way_world;
-  };
   /// From Begin() to Finish().
   struct Round {
     const std::vector<SegmentPoint>* points;

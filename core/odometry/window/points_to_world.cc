@@ -43,4 +43,17 @@ std::vector<Eigen::Vector3d> PointsToWorld(const SegmentMotion& motion,
   return places_world;
 }
 
+std::vector<MapPoint> ToMapPoints(const SegmentMotion& motion, const std::vector<LidarPath>& lidars,
+                                  const SegmentPoint* points, std::size_t count) {
+  std::vector<Eigen::Vector3d> places_world(count);
+  PointsToWorld(motion, points, count, places_world.data());
+  std::vector<MapPoint> map_points;
+  map_points.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d sensor_world = lidars[points[i].lidar].At(points[i].alpha);
+    map_points.push_back({places_world[i], (sensor_world - places_world[i]).cast<float>()});
+  }
+  return map_points;
+}
+
 }  // namespace trajlo

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/odometry/map/map_point.h"
 #include "core/odometry/segments/segment_cloud.h"
+#include "core/odometry/window/lidar_path.h"
 #include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
@@ -16,5 +18,9 @@ void PointsToWorld(const SegmentMotion& motion, const SegmentPoint* points, std:
 
 std::vector<Eigen::Vector3d> PointsToWorld(const SegmentMotion& motion,
                                            const std::vector<SegmentPoint>& points);
+
+/// As the map takes them. `lidars`: the path of each LiDAR during the segment.
+std::vector<MapPoint> ToMapPoints(const SegmentMotion& motion, const std::vector<LidarPath>& lidars,
+                                  const SegmentPoint* points, std::size_t count);
 
 }  // namespace trajlo

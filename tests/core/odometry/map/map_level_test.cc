@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/map_points.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo {
@@ -45,8 +46,8 @@ class BothKinds : public ::testing::TestWithParam<MapKind> {};
 TEST_P(BothKinds, SharedPlanesAreThoseOfTheCellsCentres) {
   MapLevel shared(Options(GetParam(), true), {}), own(Options(GetParam(), false), {});
   const auto floor = Floor(4000, 3.0, 0.01, 1);
-  shared.Insert(floor);
-  own.Insert(floor);
+  shared.Insert(testing::MapPoints(floor));
+  own.Insert(testing::MapPoints(floor));
   int found = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (const Eigen::Vector3d& p : Floor(500, 3.2, 0.1, 2)) {
@@ -75,7 +76,7 @@ TEST(MapLevel, APlaneFollowsTheMapWhenItHasGrownByMoreThanAnEighth) {
   FittedPlane kept;
   int changes = 0;
   for (const Eigen::Vector3d& p : Floor(60000, 4.0, 0.01, 3)) {
-    level.Insert({p});
+    level.Insert({{p}});
     const VoxelKey cell = level.CellOf(asked);
     const VoxelIndex::Entry* site = level.FindSite(level.Locate(cell), cell);
     if (site == nullptr) continue;
@@ -98,7 +99,7 @@ TEST(MapLevel, APlaneIsGoneWithItsPoints) {
   MapOptions options = Options(MapKind::kVoxelHash, true);
   options.radius_m = 8.0;
   MapLevel level(options, {});
-  level.Insert(Floor(4000, 3.0, 0.01, 4));
+  level.Insert(testing::MapPoints(Floor(4000, 3.0, 0.01, 4)));
   Eigen::Vector3d center;
   int before = 0, after = 0;
   for (const Eigen::Vector3d& p : Floor(200, 3.0, 0.01, 5)) {
@@ -113,7 +114,7 @@ TEST(MapLevel, APlaneIsGoneWithItsPoints) {
   // Another floor, whose sites have the numbers of the former one, lies half a metre higher.
   auto higher = Floor(4000, 3.0, 0.01, 4);
   for (Eigen::Vector3d& p : higher) p += Eigen::Vector3d(20.0, 0.0, 0.5);
-  level.Insert(higher);
+  level.Insert(testing::MapPoints(higher));
   for (const Eigen::Vector3d& p : Floor(200, 3.0, 0.01, 5)) {
     const Eigen::Vector3d query = p + Eigen::Vector3d(20.0, 0.0, 0.5);
     const FittedPlane plane = Ask(level, query, &center);

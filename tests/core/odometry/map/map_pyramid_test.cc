@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/map_points.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo {
@@ -19,7 +20,7 @@ MapPyramid MakeMap(const PlaneFitOptions& plane, const std::vector<Eigen::Vector
   options.finest.min_point_spacing_m = 0.08;
   options.plane = plane;
   MapPyramid map(options);
-  map.Insert(points);
+  map.Insert(testing::MapPoints(points));
   return map;
 }
 
@@ -195,6 +196,31 @@ TEST(MapPyramid, TakesAPlaneAlongTheRayWhereThereIsNoOther) {
   ASSERT_TRUE(plane.exists());
   EXPECT_NEAR(std::abs(plane.normal_world.z()), 1.0, 1e-6);
   EXPECT_EQ(plane.coarseness, 1.0);
+}
+
+TEST(MapPyramid, WhatWasSeenFromBelowSaysNothingOfWhatIsSeenFromAbove) {
+  // A bridge of 0.2 m: its lower face is at 3 m.
+  testing::Random random(21);
+  std::vector<Eigen::Vector3d> below, above;
+  for (int i = 0; i < 20000; ++i) {
+    below.push_back(random.PlaceIn({2, 2, 0}) + Eigen::Vector3d(0.0, 0.0, 3.0));
+    above.push_back(random.PlaceIn({2, 2, 0}) + Eigen::Vector3d(0.0, 0.0, 3.2));
+  }
+  MapPyramid map = MakeMap({}, {});
+  map.Insert(testing::MapPoints(below, {0.0, 0.0, 0.0}));
+  const Eigen::Vector3f up(0.1, 0.0, 1.0), down(0.1, 0.0, -1.0);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d on_bridge = random.PlaceIn({1, 1, 0});
+    const PlaneQuery from_below = {on_bridge + 3.0 * Eigen::Vector3d::UnitZ(), up};
+    const PlaneQuery from_above = {on_bridge + 3.2 * Eigen::Vector3d::UnitZ(), down};
+    EXPECT_NEAR(PlaneAt(map, from_below).normal_world.z(), -1.0, 0.01);
+    EXPECT_FALSE(PlaneAt(map, from_above).exists());
+  }
+  map.Insert(testing::MapPoints(above, {0.0, 0.0, 6.0}));
+  const Plane upper = PlaneAt(map, {{0.5, 0.5, 3.2}, down});
+  ASSERT_TRUE(upper.exists());
+  EXPECT_NEAR(std::abs(upper.normal_world.z()), 1.0, 0.01);
+  EXPECT_NEAR(std::abs(upper.offset_m), 3.2, 0.1);
 }
 
 }  // namespace

@@ -34,6 +34,22 @@ TEST(PlaneCells, FitsOnceAndAgainWhenThePointsHaveGrownByMoreThanAnEighthAndOne)
   }
 }
 
+TEST(PlaneCells, KeepTheSideOfAPlane) {
+  PlaneCells cells;
+  cells.Resize(1);
+  for (std::uint32_t cell = 0; cell < 8; ++cell) {
+    const bool is_one_sided = cell % 3 == 0;
+    const auto fit = [&] {
+      FittedPlane plane = PlaneNumber(1);
+      plane.is_one_sided = is_one_sided;
+      return plane;
+    };
+    for (int asked = 0; asked < 2; ++asked) {
+      EXPECT_EQ(cells.Get(0, cell, 100 + cell, fit).is_one_sided, is_one_sided);
+    }
+  }
+}
+
 TEST(PlaneCells, KeepsCellsApartAndWhatTheyHoldWhenThereAreMore) {
   PlaneCells cells;
   cells.Resize(10);

@@ -158,5 +158,37 @@ TEST(PlaneFit, RefusesAScanLineAThickCloudAndTooFewPoints) {
   EXPECT_FALSE(fit(few).exists());
 }
 
+TEST(PlaneFit, ItsNormalPointsToWhereAllNeighboursWereSeenFrom) {
+  testing::Random random(8);
+  int planes = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3d normal = random.Direction();
+    const Eigen::Vector3d center = 10.0 * random.Direction();
+    Neighbors neighbors = Patch(&random, normal, center, 0.3, 0.3, 0.001);
+    EXPECT_FALSE(FitPlane(neighbors, center, {}, 0.1).is_one_sided) << "nobody knows";
+
+    const Eigen::Vector3d sensor = center + normal + 0.5 * random.Direction();
+    for (SeenFrom& seen_from : neighbors.seen_from) {
+      seen_from = SeenFrom((sensor - center).cast<float>());
+    }
+    const FittedPlane plane = FitPlane(neighbors, center, {}, 0.1);
+    if (!plane.exists()) continue;  // Nearly on a line.
+    ++planes;
+    EXPECT_TRUE(plane.is_one_sided);
+    EXPECT_GT(plane.normal_world.cast<double>().dot(normal), 0.9);
+    EXPECT_NEAR(plane.offset_m, 0.0, 0.01);
+    const Eigen::Vector3f ray = (center - sensor).cast<float>();
+    EXPECT_FALSE(plane.IsBehind(ray));
+    EXPECT_TRUE(plane.IsBehind(-ray));
+
+    // One that was seen from the other side is enough.
+    neighbors.seen_from[3] = SeenFrom(ray);
+    const FittedPlane both = FitPlane(neighbors, center, {}, 0.1);
+    EXPECT_FALSE(both.is_one_sided);
+    EXPECT_FALSE(both.IsBehind(-ray));
+  }
+  EXPECT_GT(planes, 150);
+}
+
 }  // namespace
 }  // namespace trajlo

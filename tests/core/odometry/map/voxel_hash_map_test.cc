@@ -11,10 +11,14 @@
 #include <set>
 
 #include "core/odometry/map/kd_tree_index.h"
+#include "tests/support/map_points.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo {
 namespace {
+
+using testing::MapPoints;
+using testing::PlacesOf;
 
 std::vector<Eigen::Vector3d> RandomPoints(int count, double half_size,
                                           const Eigen::Vector3d& center, unsigned seed) {
@@ -32,7 +36,7 @@ VoxelHashMap MakeMap(double voxel_m, double spacing_m, double radius_m = 100.0) 
 
 std::vector<Eigen::Vector3d> Stored(const VoxelHashMap& map) {
   std::vector<Eigen::Vector3d> points;
-  map.ForEachPoint([&](const Eigen::Vector3d& p) { points.push_back(p); });
+  map.ForEachPoint([&](const MapPoint& point) { points.push_back(point.place_world); });
   return points;
 }
 
@@ -54,7 +58,8 @@ std::vector<double> SevenVoxelDistances(const VoxelHashMap& map, const Eigen::Ve
                                         double voxel, int k) {
   std::vector<double> distances;
   const Eigen::Vector3d own = (query / voxel).array().floor();
-  map.ForEachPoint([&](const Eigen::Vector3d& p) {
+  map.ForEachPoint([&](const MapPoint& point) {
+    const Eigen::Vector3d& p = point.place_world;
     const Eigen::Vector3d cell = (p / voxel).array().floor();
     if ((cell - own).cwiseAbs().sum() <= 1.0) distances.push_back((p - query).norm());
   });
@@ -66,7 +71,7 @@ std::vector<double> SevenVoxelDistances(const VoxelHashMap& map, const Eigen::Ve
 TEST(VoxelHashMap, FindsTheNearestPointsOfItsSevenVoxels) {
   // Negative coordinates, too: indices must be floored, not truncated.
   VoxelHashMap map = MakeMap(0.7, 0.05);
-  map.Insert(RandomPoints(30000, 5.0, Eigen::Vector3d::Zero(), 1));
+  map.Insert(MapPoints(RandomPoints(30000, 5.0, Eigen::Vector3d::Zero(), 1)));
   for (const auto& query : RandomPoints(500, 5.2, Eigen::Vector3d::Zero(), 2)) {
     for (int k : {1, 5, 8, 20}) {
       Neighbors found;
@@ -89,7 +94,7 @@ TEST(VoxelHashMap, KnowsHowManyPointsThereAreAroundEveryVoxel) {
   std::vector<std::uint32_t> changed;
   for (int pass = 0; pass < 3; ++pass) {
     const Eigen::Vector3d center(8.0 * pass, 0, 0);
-    map.Insert(RandomPoints(20000, 10.0, center, 11 + static_cast<unsigned>(pass)));
+    map.Insert(MapPoints(RandomPoints(20000, 10.0, center, 11 + static_cast<unsigned>(pass))));
     map.RemoveFar(center, &changed);
   }
   EXPECT_GT(changed.size(), 1000u);
@@ -127,7 +132,7 @@ TEST(VoxelHashMap, IsBoundedByVoxelsTimesTwentyPoints) {
   Neighbors found;
   map.Nearest({0, 0, 0}, 5, &found);
   EXPECT_EQ(found.count, 0);
-  map.Insert(RandomPoints(50000, 1.0, Eigen::Vector3d::Zero(), 7));
+  map.Insert(MapPoints(RandomPoints(50000, 1.0, Eigen::Vector3d::Zero(), 7)));
   EXPECT_EQ(map.size(), 8u * 20u);
   EXPECT_EQ(Stored(map).size(), map.size());
 }
@@ -137,9 +142,9 @@ TEST(VoxelHashMap, WhatItRefusesMayBeDroppedBefore) {
   VoxelHashMap with_dropping = MakeMap(0.5, 0.12);
   for (unsigned seed = 0; seed < 10; ++seed) {
     const auto points = RandomPoints(3000, 2.0, Eigen::Vector3d(0.3 * seed, 0.0, 0.0), seed);
-    std::vector<Eigen::Vector3d> wanted = points;
+    std::vector<MapPoint> wanted = MapPoints(points);
     with_dropping.DropRefused(&wanted);
-    EXPECT_EQ(map.Insert(points), with_dropping.Insert(wanted));
+    EXPECT_EQ(PlacesOf(map.Insert(MapPoints(points))), PlacesOf(with_dropping.Insert(wanted)));
     EXPECT_EQ(Stored(map), Stored(with_dropping));
     if (seed > 0) {
       EXPECT_LT(wanted.size(), points.size());
@@ -150,15 +155,15 @@ TEST(VoxelHashMap, WhatItRefusesMayBeDroppedBefore) {
 TEST(VoxelHashMap, DropsWhatIsFarAndKeepsWhatIsNear) {
   VoxelHashMap map = MakeMap(0.5, 0.0, 10.0);
   std::vector<std::uint32_t> changed;
-  map.Insert(RandomPoints(2000, 2.0, {0, 0, 0}, 8));
+  map.Insert(MapPoints(RandomPoints(2000, 2.0, {0, 0, 0}, 8)));
   const std::vector<Eigen::Vector3d> near = Stored(map);
-  map.Insert(RandomPoints(2000, 2.0, {30, 0, 0}, 9));
+  map.Insert(MapPoints(RandomPoints(2000, 2.0, {30, 0, 0}, 9)));
   map.RemoveFar({0, 0, 0}, &changed);
   EXPECT_EQ(Stored(map), near);
   map.RemoveFar({30, 0, 0}, &changed);
   EXPECT_EQ(map.size(), 0u);
   EXPECT_EQ(BricksBetween(map.index(), {-5, -5, -5}, {20, 5, 5}), 0u);
-  map.Insert(RandomPoints(2000, 2.0, {30, 0, 0}, 9));
+  map.Insert(MapPoints(RandomPoints(2000, 2.0, {30, 0, 0}, 9)));
   Neighbors found;
   map.Nearest({30, 0, 0}, 5, &found);
   EXPECT_EQ(found.count, 5);
@@ -173,7 +178,7 @@ TEST(VoxelHashMap, StaysAsSmallAsItsSurroundingsOnALongWay) {
   std::size_t sites = 0, bricks = 0;
   for (int i = 0; i < 60; ++i) {
     const Eigen::Vector3d center(2.0 * i, 0, 0);
-    map.Insert(RandomPoints(4000, 5.0, center, static_cast<unsigned>(i)));
+    map.Insert(MapPoints(RandomPoints(4000, 5.0, center, static_cast<unsigned>(i))));
     map.RemoveFar(center, &changed);
     if (i == 15) {
       sites = map.site_capacity();
@@ -190,12 +195,12 @@ TEST(VoxelHashMap, IsPreciseAMillionMetresFromTheOrigin) {
   const Eigen::Vector3d far(1e6, -1e6, 1e6);
   constexpr double kVoxel = 0.3;
   VoxelHashMap map = MakeMap(kVoxel, 0.0);
-  const std::vector<Eigen::Vector3d> added = map.Insert(RandomPoints(3000, 1.0, far, 21));
+  const auto added = PlacesOf(map.Insert(MapPoints(RandomPoints(3000, 1.0, far, 21))));
   const std::vector<Eigen::Vector3d> stored = Stored(map);
   for (const Eigen::Vector3d& p : stored) {
     double nearest = 1.0;
     for (const Eigen::Vector3d& q : added) nearest = std::min(nearest, (p - q).norm());
-    EXPECT_LT(nearest, 1e-7);
+    EXPECT_LT(nearest, 1e-6);
   }
   for (const auto& query : RandomPoints(200, 0.9, far, 22)) {
     Neighbors found;
@@ -215,7 +220,7 @@ TEST(VoxelHashMap, OfEquallyNearPointsTheOwnVoxelsComeFirstInTheOrderOfInsertion
   const std::vector<Eigen::Vector3d> offsets = {{1, 0, 0},     {-0.25, 0, 0}, {0, 0.25, 0},
                                                 {0, -1, 0},    {0, 0, -0.25}, {0.25, 0, 0},
                                                 {0, -0.25, 0}, {0, 0, 0.25}};
-  for (const Eigen::Vector3d& offset : offsets) map.Insert({query + offset});
+  for (const Eigen::Vector3d& offset : offsets) map.Insert({{query + offset}});
   const auto nearest = [&](int k) {
     Neighbors found;
     map.Nearest(query, k, &found);
@@ -236,17 +241,39 @@ TEST(VoxelHashMap, OfEquallyNearPointsTheOwnVoxelsComeFirstInTheOrderOfInsertion
   EXPECT_EQ(all[7], offsets[3]);
 
   // Between two voxels.
-  map.Insert({{5.0, 0.5, 0.5}, {4.75, 0.5, 0.5}});
+  map.Insert(MapPoints({{5.0, 0.5, 0.5}, {4.75, 0.5, 0.5}}));
   Neighbors found;
   map.Nearest({4.875, 0.5, 0.5}, 1, &found);
   ASSERT_EQ(found.count, 1);
   EXPECT_EQ(found.origin_world.x() + found.x[0], 4.75);
 }
 
+TEST(VoxelHashMap, KnowsFromWhereItsPointsWereSeen) {
+  VoxelHashMap map = MakeMap(0.5, 0.05);
+  const Eigen::Vector3d sensor(0.3, -0.4, 5.0);
+  map.Insert(MapPoints(RandomPoints(5000, 2.0, {0, 0, 0}, 12), sensor));
+  const auto expect_seen = [&](const Eigen::Vector3d& place, const Eigen::Vector3f& direction) {
+    const Eigen::Vector3f expected = (sensor - place).normalized().cast<float>();
+    EXPECT_LT((direction - expected).cwiseAbs().maxCoeff(), SeenFrom::kPrecision);
+  };
+  map.ForEachPoint(
+      [&](const MapPoint& point) { expect_seen(point.place_world, point.to_sensor_world); });
+  for (const auto& query : RandomPoints(100, 2.0, {0, 0, 0}, 13)) {
+    Neighbors found;
+    map.Nearest(query, 8, &found);
+    ASSERT_GT(found.count, 0);
+    for (int i = 0; i < found.count; ++i) {
+      const Eigen::Vector3d place =
+          found.origin_world + Eigen::Vector3d(found.x[i], found.y[i], found.z[i]);
+      expect_seen(place, found.seen_from[i].Direction());
+    }
+  }
+}
+
 TEST(VoxelHashMap, SurvivesPointsThatRanAway) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   VoxelHashMap map = MakeMap(0.2, 0.1);
-  map.Insert({{1e300, 0, 0}, {kNan, 0, 0}, {0, -1e300, kNan}, {0, 0, 0}});
+  map.Insert(MapPoints({{1e300, 0, 0}, {kNan, 0, 0}, {0, -1e300, kNan}, {0, 0, 0}}));
   Neighbors found;
   map.Nearest({0.01, 0, 0}, 5, &found);
   EXPECT_EQ(found.count, 1);
@@ -259,7 +286,7 @@ TEST(VoxelHashMap, SurvivesPointsThatRanAway) {
 
 TEST(VoxelHashMap, KeepsPointsOfAVoxelApart) {
   VoxelHashMap map = MakeMap(1.0, 0.25);
-  map.Insert(RandomPoints(5000, 2.0, {0, 0, 0}, 10));
+  map.Insert(MapPoints(RandomPoints(5000, 2.0, {0, 0, 0}, 10)));
   const std::vector<Eigen::Vector3d> stored = Stored(map);
   for (std::size_t i = 0; i < stored.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -276,7 +303,8 @@ TEST(KdTreeIndex, AgreesWithTheVoxelsWhereTheNeighboursAreInReach) {
   KdTreeIndex tree;
   const auto points = RandomPoints(20000, 4.0, Eigen::Vector3d::Zero(), 3);
   for (int batch = 0; batch < 10; ++batch) {
-    tree.Add(hash.Insert({points.begin() + batch * 2000, points.begin() + (batch + 1) * 2000}));
+    tree.Add(hash.Insert(
+        MapPoints({points.begin() + batch * 2000, points.begin() + (batch + 1) * 2000})));
   }
   int compared = 0;
   for (const auto& query : RandomPoints(2000, 3.9, Eigen::Vector3d::Zero(), 4)) {
@@ -306,7 +334,7 @@ TEST(KdTreeIndex, FindsTheNearestPoints) {
     std::vector<Eigen::Vector3d> stored =
         RandomPoints(4000, 8.0, Eigen::Vector3d::Zero(), 5 + pass);
     tree.Clear();
-    tree.Add(stored);
+    tree.Add(MapPoints(stored));
     for (const auto& query : RandomPoints(100, 8.0, Eigen::Vector3d::Zero(), 6)) {
       std::sort(stored.begin(), stored.end(), [&](const auto& a, const auto& b) {
         return (a - query).squaredNorm() < (b - query).squaredNorm();

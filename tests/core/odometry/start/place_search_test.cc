@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/map_points.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo {
@@ -42,7 +43,7 @@ SearchRegion RegionAround(const Eigen::Vector3d& center_world) {
 TEST(FindPlaces, FindsWhereASweepWasMeasuredAnywhereInTheRegion) {
   const std::vector<Eigen::Vector3d> room = MakeRoom();
   VoxelHashMap map(0.4, 0.1, 100.0);
-  map.Insert(room);
+  map.Insert(testing::MapPoints(room));
   ThreadPool threads(1);
   testing::Random random(3);
   for (int draw = 0; draw < 5; ++draw) {
@@ -64,7 +65,7 @@ TEST(FindPlaces, FindsWhereASweepWasMeasuredAnywhereInTheRegion) {
 TEST(FindPlaces, HasNoPlaceWhereTheMapIsEmptyOrTheSweepIs) {
   const VoxelHashMap empty(0.4, 0.1, 100.0);
   VoxelHashMap map(0.4, 0.1, 100.0);
-  map.Insert(MakeRoom());
+  map.Insert(testing::MapPoints(MakeRoom()));
   ThreadPool threads(1);
   const SearchRegion region = RegionAround({3, 3, 1});
   EXPECT_TRUE(FindPlaces(MakeRoom(), empty, region, 3, &threads).empty());

@@ -7,6 +7,7 @@
 
 #include "core/odometry/segments/choose_evenly.h"
 #include "tests/support/bytes_of.h"
+#include "tests/support/map_points.h"
 #include "tests/support/synthetic_world.h"
 
 namespace trajlo {
@@ -43,7 +44,7 @@ MapPyramid MapOf(const std::vector<Box>& boxes) {
     for (const LidarPoint& point : world.Sweep(i).points) {
       points.push_back(T * point.xyz_m.cast<double>().eval());
     }
-    map.Insert(points);
+    map.Insert(testing::MapPoints(points, T.t));
   }
   return map;
 }
@@ -99,8 +100,8 @@ TEST(Relocalization, APlaceThatTheRefinementReachesOutsideOfItsRegionIsNone) {
     return Relocalize(SweepOf(WorldAt(kPlaces[0])), Vector6d::Zero(), map, region, {}, &pool)
         .has_value();
   };
-  EXPECT_TRUE(finds_beside(0.6));
-  EXPECT_FALSE(finds_beside(1.1));
+  EXPECT_TRUE(finds_beside(0.3));
+  EXPECT_FALSE(finds_beside(0.5));
   EXPECT_FALSE(finds_beside(1.4));
 }
 

@@ -7,6 +7,7 @@
 
 #include "manifolds/se3_interpolation.h"
 #include "tests/support/bytes_of.h"
+#include "tests/support/map_points.h"
 #include "tests/support/random_poses.h"
 
 namespace trajlo {
@@ -38,7 +39,7 @@ MapPyramid BoxMap(int points, unsigned seed, const MapPyramidOptions& options = 
   std::vector<Eigen::Vector3d> walls;
   for (int i = 0; i < points; ++i) walls.push_back(OnWalls(&random));
   MapPyramid map(options);
-  map.Insert(walls);
+  map.Insert(testing::MapPoints(walls));
   return map;
 }
 
@@ -135,7 +136,7 @@ TEST(SegmentAssociation, IsTheSameToTheByteForAnyNumberOfThreads) {
     testing::Random random(6);
     std::vector<Eigen::Vector3d> more;
     for (int i = 0; i < 20000; ++i) more.push_back(OnWalls(&random));
-    map.Insert(more);
+    map.Insert(testing::MapPoints(more));
     second.Associate(map, &threads, &found);
     ASSERT_GT(found.points.size(), 1900u);
     if (expected.empty()) expected = found.points;
@@ -178,7 +179,7 @@ TEST(SegmentAssociation, APointWithoutAPlaneAsksAgainWhenTheMapHasGrown) {
   segment.Associate(map, &threads, &found);
   const int without = 500 - static_cast<int>(found.points.size());
   ASSERT_GT(without, 0);
-  map.Insert({Eigen::Vector3d(50.0, 50.0, 50.0)});
+  map.Insert({{Eigen::Vector3d(50.0, 50.0, 50.0)}});
   EXPECT_EQ(segment.Associate(map, &threads, &found), without);
   EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
 }
@@ -260,7 +261,7 @@ TEST(SegmentAssociation, JudgesGrazingByTheRayFromThePointsOwnLidar) {
   options.finest.voxel_size_m = 0.4;
   options.finest.min_point_spacing_m = 0.08;
   MapPyramid map(options);
-  map.Insert(walls);
+  map.Insert(testing::MapPoints(walls));
   ThreadPool threads(1);
   const Eigen::Vector3d middle = hit + 0.15 / ray.x() * ray;
   const std::vector<SegmentPoint> points = {{middle.cast<float>(), 0.5F, 1}};

@@ -6,6 +6,7 @@
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
+#include "tests/support/map_points.h"
 #include "tests/support/test_window.h"
 
 namespace trajlo {
@@ -27,7 +28,7 @@ MapPyramid BoxMap() {
   std::vector<Eigen::Vector3d> walls;
   for (int i = 0; i < 30000; ++i) walls.push_back(OnWalls(&random));
   MapPyramid map({});
-  map.Insert(walls);
+  map.Insert(testing::MapPoints(walls));
   return map;
 }
 

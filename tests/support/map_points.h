@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "core/odometry/map/map_point.h"
+
+namespace trajlo::testing {
+
+/// Places of which it is not known from where they were seen.
+inline std::vector<MapPoint> MapPoints(const std::vector<Eigen::Vector3d>& places_world) {
+  std::vector<MapPoint> points;
+  for (const Eigen::Vector3d& place : places_world) points.push_back({place});
+  return points;
+}
+
+/// The same, seen from one place.
+inline std::vector<MapPoint> MapPoints(const std::vector<Eigen::Vector3d>& places_world,
+                                       const Eigen::Vector3d& sensor_world) {
+  std::vector<MapPoint> points;
+  for (const Eigen::Vector3d& place : places_world) {
+    points.push_back({place, (sensor_world - place).cast<float>()});
+  }
+  return points;
+}
+
+inline std::vector<Eigen::Vector3d> PlacesOf(const std::vector<MapPoint>& points) {
+  std::vector<Eigen::Vector3d> places;
+  for (const MapPoint& point : points) places.push_back(point.place_world);
+  return places;
+}
+
+}  // namespace trajlo::testing
