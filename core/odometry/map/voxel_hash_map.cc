@@ -67,7 +67,7 @@ bool VoxelHashMap::HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) con
 }
 
 void VoxelHashMap::Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p,
-                          SeenFrom seen_from) {
+                          const SeenFrom& seen_from) {
   VoxelIndex::Entry& entry = index_[slot];
   if (entry.block == VoxelIndex::kNoBlock) entry.block = NewBlock(key);
   std::uint32_t last = entry.block;

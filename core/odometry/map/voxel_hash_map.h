@@ -74,7 +74,7 @@ class VoxelHashMap {
   /// Whether a voxel, given by its first block, is not full and has no point that is too near.
   bool HasRoomFor(std::uint32_t block, const Eigen::Vector3f& p) const;
   void Append(VoxelIndex::Slot slot, const VoxelKey& key, const Eigen::Vector3f& p,
-              SeenFrom seen_from);
+              const SeenFrom& seen_from);
   std::uint32_t NewBlock(const VoxelKey& key);
   /// Counts one more point around a voxel.
   void AddAround(VoxelIndex::Entry* entry);
