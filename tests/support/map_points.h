@@ -4,8 +4,20 @@
 #include <vector>
 
 #include "core/odometry/map/map_point.h"
+#include "tests/support/random_poses.h"
 
 namespace trajlo::testing {
+
+/// Evenly in a cube.
+inline std::vector<Eigen::Vector3d> RandomPoints(int count, double half_size,
+                                                 const Eigen::Vector3d& center, unsigned seed) {
+  Random random(seed);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < count; ++i) {
+    points.emplace_back(center + random.PlaceIn(Eigen::Vector3d::Constant(half_size)));
+  }
+  return points;
+}
 
 /// Places of which it is not known from where they were seen.
 inline std::vector<MapPoint> MapPoints(const std::vector<Eigen::Vector3d>& places_world) {

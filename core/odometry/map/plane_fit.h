@@ -71,6 +71,7 @@ struct PlaneNumbers {
   float normal_variance_rad2 = 0.0F;
 };
 
+/// The same, and from which side it is seen.
 struct FittedPlane : PlaneNumbers {
   /// No neighbour was seen from behind: the normal points to where they were seen from.
   bool is_one_sided = false;
