@@ -85,9 +85,10 @@ void Odometry::Step(SegmentCloud cloud) {
 
   WindowStatistics statistics;
   statistics.restless = RestlessStep(window_.segments.back().cloud);
-  AssociateAndSolve(&statistics);
+  AssociateAndSolve(&window_, &statistics);
   if (doubt_.IsContradicted(statistics.agreement)) LookAgain(predicted, &statistics);
-  LeaveOutUnsupported(predicted, &statistics);
+  // Before the points ever held the body, there is no prediction to trust.
+  if (support_.was_supported()) LeaveOutUnsupported(predicted, &window_, &statistics);
   statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
   if (IsBlind()) {
     TakeBackAndSearch(predicted);
@@ -104,23 +105,36 @@ void Odometry::Step(SegmentCloud cloud) {
 }
 
 /// Until the step is small: which planes the points belong to, and the poses that bring them there.
-void Odometry::AssociateAndSolve(WindowStatistics* s) {
-  GraduatedKernel kernel(window_, options_.registration.kernel_m);
-  Segment* newest = &window_.segments.back();
-  while (s->rounds < options_.solver.max_rounds && !s->has_converged && s->is_finite) {
+void Odometry::AssociateAndSolve(Window* window, WindowStatistics* s) {
+  GraduatedKernel kernel(*window, options_.registration.kernel_m);
+  Segment* newest = &window->segments.back();
+  while (s->GoesOn(options_.solver.max_rounds)) {
     Stopwatch watch;
-    s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, &window_);
-    if (s->rounds == 0) FitKernel(options_.registration, &window_);
+    s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, window);
+    if (s->rounds == 0) FitKernel(options_.registration, window);
     s->milliseconds_associate += watch.Milliseconds();
     const bool is_widened = kernel.Widen(newest);
-    s->Add(solver_->Solve(&window_), options_.solver);
+    s->Add(solver_->Solve(window), options_.solver);
     if (is_widened) {
       kernel.Restore(newest);
       s->has_converged = false;
     }
     s->milliseconds_solve += watch.Milliseconds();
   }
-  s->agreement = AgreementOf(window_, *newest).worst;
+  s->agreement = AgreementOf(*window, *newest).worst;
+}
+
+/// Solves again without the points that do not hold their segments, from the prediction: what is
+/// left agrees with it.
+void Odometry::LeaveOutUnsupported(const std::vector<SE3>& predicted, Window* window,
+                                   WindowStatistics* s) {
+  if (!s->is_finite || !SilenceUnsupported(window)) return;
+  Stopwatch watch;
+  window->BeginAgainAt(predicted);
+  const int last_round = s->rounds + options_.solver.max_rounds;
+  s->has_converged = false;
+  while (s->GoesOn(last_round)) s->Add(solver_->Solve(window), options_.solver);
+  s->milliseconds_solve += watch.Milliseconds();
 }
 
 void Odometry::BelieveOrRevert(const std::vector<SE3>& predicted,

@@ -97,8 +97,9 @@ class Odometry {
   bool IsBlind() const;
   void TakeBackAndSearch(const std::vector<SE3>& predicted);
   void NoteSupport();
-  void AssociateAndSolve(WindowStatistics* statistics);
-  void LeaveOutUnsupported(const std::vector<SE3>& predicted, WindowStatistics* statistics);
+  void AssociateAndSolve(Window* window, WindowStatistics* statistics);
+  void LeaveOutUnsupported(const std::vector<SE3>& predicted, Window* window,
+                           WindowStatistics* statistics);
   void LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics);
   Eigen::Vector3d TurnAxis() const;
   void LookAround(double agreement);

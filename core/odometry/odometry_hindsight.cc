@@ -5,8 +5,6 @@
 
 #include "core/odometry/health/support.h"
 #include "core/odometry/odometry.h"
-#include "core/odometry/stopwatch.h"
-#include "core/odometry/window/associate_window.h"
 
 namespace trajlo {
 namespace {
@@ -57,29 +55,15 @@ void Odometry::LookBack(WindowStatistics* statistics) {
   SettleStretch();
 }
 
-/// Associates and solves until the step is small, and once more without the points that do not hold
-/// their segments then; nothing if that fails.
+/// As any other window; nothing if that fails.
 std::optional<Window> Odometry::Reestimate(Window joined, WindowStatistics* statistics) {
   motion_prior_.Apply(&joined);
   const std::vector<SE3> start = joined.Poses();
   WindowStatistics rounds;
-  const auto goes_on = [&] {
-    return rounds.rounds < options_.solver.max_rounds && !rounds.has_converged && rounds.is_finite;
-  };
-  Stopwatch watch;
-  while (goes_on()) {
-    AssociateWindow(map_, options_.solver.step_tolerance, &threads_, &joined);
-    statistics->milliseconds_associate += watch.Milliseconds();
-    rounds.Add(solver_->Solve(&joined), options_.solver);
-    statistics->milliseconds_solve += watch.Milliseconds();
-  }
-  if (SilenceUnsupported(&joined)) {
-    joined.SetPoses(start);
-    for (Segment& segment : joined.segments) segment.linearization.reset();
-    rounds = WindowStatistics();
-    while (goes_on()) rounds.Add(solver_->Solve(&joined), options_.solver);
-    statistics->milliseconds_solve += watch.Milliseconds();
-  }
+  AssociateAndSolve(&joined, &rounds);
+  LeaveOutUnsupported(start, &joined, &rounds);
+  statistics->milliseconds_associate += rounds.milliseconds_associate;
+  statistics->milliseconds_solve += rounds.milliseconds_solve;
   if (!rounds.is_finite) return std::nullopt;
   return joined;
 }

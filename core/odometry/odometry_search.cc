@@ -40,18 +40,17 @@ constexpr double kPatience = 0.1;
 /// prior follows. (A hand before the LiDAR has few points, which agree with whatever is near.)
 void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics) {
   Window first = window_;
-  window_.SetPoses(predicted);
+  window_.BeginAgainAt(predicted);
   Segment& newest = window_.segments.back();
   newest.registration = {};
   newest.association = {};
-  for (Segment& segment : window_.segments) segment.linearization.reset();
   motion_prior_.UntieRotation(&window_);
   WindowStatistics again;
   again.restless = statistics->restless;
   // Both looks take time, whichever is kept.
   again.milliseconds_associate = statistics->milliseconds_associate;
   again.milliseconds_solve = statistics->milliseconds_solve;
-  AssociateAndSolve(&again);
+  AssociateAndSolve(&window_, &again);
   const bool is_better = again.is_finite && again.agreement > statistics->agreement;
   if (is_better && !IsUnsupported(window_, newest)) {
     motion_prior_.Apply(&window_);
@@ -63,20 +62,6 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
     statistics->milliseconds_associate = again.milliseconds_associate;
     statistics->milliseconds_solve = again.milliseconds_solve;
   }
-}
-
-/// Solves the window again without the points that do not hold their segments, from the prediction:
-/// what is left agrees with it. (Before the points ever held the body, there is none to trust.)
-void Odometry::LeaveOutUnsupported(const std::vector<SE3>& predicted, WindowStatistics* s) {
-  if (!s->is_finite || !support_.was_supported() || !SilenceUnsupported(&window_)) return;
-  Stopwatch watch;
-  window_.SetPoses(predicted);
-  for (Segment& segment : window_.segments) segment.linearization.reset();
-  const int last_round = s->rounds + options_.solver.max_rounds;
-  do {
-    s->Add(solver_->Solve(&window_), options_.solver);
-  } while (s->rounds < last_round && !s->has_converged && s->is_finite);
-  s->milliseconds_solve += watch.Milliseconds();
 }
 
 /// About which the body may have turned most while its points did not hold it. A body on a rope

@@ -77,6 +77,11 @@ struct Window {
     T_world_begin = poses.front();
     for (std::size_t k = 0; k < segments.size(); ++k) segments[k].T_world_end = poses[k + 1];
   }
+  /// Where the next solve starts, far from where the last one ended.
+  void BeginAgainAt(const std::vector<SE3>& poses) {
+    SetPoses(poses);
+    for (Segment& segment : segments) segment.linearization.reset();
+  }
   /// Of each point of a segment. All N of them share its bend: together they tell as much as
   /// N / (1 + N bend_m2 / sigma²) points without one.
   RegistrationNoise NoiseOf(const Segment& segment) const {
