@@ -8,7 +8,7 @@ enum class ExitCode {
   kOk = 0,
   kUsage = 1,            ///< Wrong flags or configuration.
   kInputUnreadable = 2,  ///< Nothing could be read.
-  kPartialInput = 3,     ///< The result rests on a part of the input.
+  kPartialInput = 3,     ///< The result rests on a part of the input, or on no sure pose.
   kLost = 4,             ///< The estimator got lost; the result until then is written and flagged.
   kOutputNotWritable = 5,  ///< Disk full, no permission, or an earlier result would be replaced.
   kFailed = 6,             ///< Out of memory or threads, or a defect of the program.

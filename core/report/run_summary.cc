@@ -104,6 +104,11 @@ std::string RunSummary::MissingInput() const {
         "the recording is too short for a window (expert.initialization.first_interval_s): nothing "
         "confirms how the body moved");
   }
+  if (!too_short && flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
+    parts.push_back(
+        FormatText("%.2f of %.2f s have a flag (flags.csv)", flags.any().seconds, flags.seconds()) +
+        ": hardly a pose can be relied on");
+  }
   for (const LidarPlace& place : rig) {
     if (place.evidence != RigEvidence::kContradicted) continue;
     parts.push_back("LiDAR " + std::to_string(place.lidar) +

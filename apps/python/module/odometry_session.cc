@@ -203,6 +203,7 @@ std::string OdometrySession::MissingInput() const {
   RunSummary summary;
   summary.times = odometry().time_report();
   summary.points = odometry().point_counts();
+  summary.flags = PoseFlags(odometry().trajectory().poses(), odometry().lost_at_ns());
   return summary.MissingInput();
 }
 

@@ -15,6 +15,7 @@ namespace trajlo {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using trajlo::testing::TempFolder;
 
 RunSummary ExampleSummary() {
@@ -145,6 +146,25 @@ TEST(RunSummary, SaysThatNothingConfirmsAShortRecordingOrThatALidarDoesNotFit) {
   }
   s.rig[1].evidence = RigEvidence::kContradicted;
   EXPECT_THAT(s.MissingInput(), HasSubstr("LiDAR 1 does not fit the others"));
+}
+
+TEST(RunSummary, SaysThatHardlyAPoseCanBeReliedOn) {
+  constexpr int kPoses = 101;
+  std::vector<ControlPose> poses(kPoses);
+  for (int i = 0; i < kPoses; ++i) {
+    poses[i].t_ns = i * 100'000'000LL;
+    poses[i].flags = i < 95 ? kFlagDegenerate : 0U;
+  }
+  RunSummary s;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.MissingInput(), "");  // 0.6 of 10 s are good.
+  poses[95].flags = poses[96].flags = kFlagJump;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.MissingInput(),
+            "9.60 of 10.00 s have a flag (flags.csv): hardly a pose can be relied on");
+  // What nothing confirms is said once.
+  s.too_short = true;
+  EXPECT_THAT(s.MissingInput(), Not(HasSubstr("flag")));
 }
 
 TEST(RunSummary, CountsOddStampsByReason) {
