@@ -104,6 +104,11 @@ std::string RunSummary::MissingInput() const {
         "the recording is too short for a window (expert.initialization.first_interval_s): nothing "
         "confirms how the body moved");
   }
+  const double unmeasured_s = flags.totals().at("gap").seconds;
+  if (unmeasured_s > kSizeableShare * flags.seconds()) {
+    parts.push_back(
+        FormatText("nothing was measured for %.2f of %.2f s", unmeasured_s, flags.seconds()));
+  }
   if (!too_short && flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
     parts.push_back(
         FormatText("%.2f of %.2f s have a flag (flags.csv)", flags.any().seconds, flags.seconds()) +

@@ -68,8 +68,8 @@ struct RunSummary {
   /// Points count if more than 5 % were dropped because of their times, scans if more than 5 %
   /// have other times than their stamps or, unlike the others, one time for all points, if more
   /// than 5 % have or seem to have the points of others, if the first or the last 5 % have no
-  /// points, or if a last scan that was dropped would lengthen the recording by so much. Poses
-  /// count if flags leave less than 5 % of the time.
+  /// points, or if a last scan that was dropped would lengthen the recording by so much. Pauses
+  /// count if they take more than 5 % of the time, flags if they leave less than that.
   std::string MissingInput() const;
 
   double DataSeconds() const { return begin_ns && end_ns ? Seconds(*end_ns - *begin_ns) : 0.0; }

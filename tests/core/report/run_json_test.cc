@@ -167,6 +167,18 @@ TEST(RunSummary, SaysThatHardlyAPoseCanBeReliedOn) {
   EXPECT_THAT(s.MissingInput(), Not(HasSubstr("flag")));
 }
 
+TEST(RunSummary, SaysThatNothingWasMeasuredForLong) {
+  constexpr std::int64_t kMillisecond = 1'000'000;
+  std::vector<ControlPose> poses = {{0, {}, 0}, {9500 * kMillisecond, {}, 0}, {0, {}, kFlagGap}};
+  RunSummary s;
+  poses[2].t_ns = 9990 * kMillisecond;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.MissingInput(), "");
+  poses[2].t_ns = 10010 * kMillisecond;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.MissingInput(), "nothing was measured for 0.51 of 10.01 s");
+}
+
 TEST(RunSummary, CountsOddStampsByReason) {
   RunSummary s;
   EXPECT_EQ(s.OddStamps(), "");
