@@ -98,7 +98,7 @@ void Odometry::LookAround(double agreement) {
           : Minus(window_.EndPose(), window_.T_world_begin);
   const auto found = Relocalize(sweep, tau, map_, region, options_.registration, &threads_);
   if (!found) return;
-  doubt_.Dispel();
+  doubt_.Dispel(window_.EndNs());
   if (MeasureStep(window_.T_world_begin, found->T_world_begin).IsWithin(kSamePlace)) return;
   MoveWindow(*found);
 }

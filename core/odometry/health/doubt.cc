@@ -87,7 +87,7 @@ void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics
                                                        return Agrees(window, segment, kToTrust,
                                                                      kAsUsual);
                                                      })) {
-    Dispel();
+    Dispel(window.EndNs());
   }
 }
 
@@ -97,7 +97,8 @@ std::optional<StepSize> DoubtWatch::Reach(double agreement) const {
                   3.0 * UnseenSigma(density_[3], unseen_s_)};
 }
 
-void DoubtWatch::Dispel() {
+void DoubtWatch::Dispel(std::int64_t t_ns) {
+  held_until_ns_ = t_ns;
   flags_ = 0;
   causes_ = 0;
   unseen_s_ = 0.0;

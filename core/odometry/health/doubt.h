@@ -36,8 +36,8 @@ class DoubtWatch {
   const std::optional<Eigen::Vector3d>& open_axis_world() const { return open_axis_world_; }
   /// For how long the place has been in doubt at `t_ns`.
   double Age_s(std::int64_t t_ns) const { return flags_ == 0 ? 0.0 : Seconds(t_ns - began_ns_); }
-  /// The body was found: no doubt is left.
-  void Dispel();
+  /// The body was found at `t_ns`: no doubt is left, and what was unseen before does not count.
+  void Dispel(std::int64_t t_ns);
   /// Whether the newest points lie on the map much worse than usual; `agreement` is their
   /// MapAgreement::worst.
   bool IsContradicted(double agreement) const;

@@ -104,7 +104,7 @@ class Watched {
     return watch_.Reach(Agreement(newest).worst);
   }
   const std::optional<Eigen::Vector3d>& open_axis() const { return watch_.open_axis_world(); }
-  void Dispel() { watch_.Dispel(); }
+  void Dispel() { watch_.Dispel(std::llround(end_s_ * 1e9)); }
   void SetDensity(double m2_s3, double rad2_s3) {
     density_ << Eigen::Vector3d::Constant(m2_s3), Eigen::Vector3d::Constant(rad2_s3);
   }
@@ -284,6 +284,13 @@ TEST(DoubtWatch, IsOverWhenTheBodyWasFound) {
   EXPECT_TRUE(body.MayEnterMap(kNewPart));
   EXPECT_EQ(body.Add(0, kWrongWall), 0U);
   EXPECT_FALSE(body.Reach(kWrongWall));
+}
+
+TEST(DoubtWatch, WhatWasUnseenBeforeTheBodyWasFoundDoesNotCount) {
+  Watched body = InDoubt();
+  body.Dispel();
+  EXPECT_EQ(body.Add(kFlagDegenerate), 0U) << "for one window it has not moved far";
+  EXPECT_EQ(body.Add(kFlagNoPoints), +kFlagNoPoints);
 }
 
 TEST(DoubtWatch, InDoubtOnlyWhatAgreesEntersTheMap) {
