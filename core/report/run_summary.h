@@ -69,7 +69,7 @@ struct RunSummary {
   /// have other times than their stamps or, unlike the others, one time for all points, if more
   /// than 5 % have or seem to have the points of others, if the first or the last 5 % have no
   /// points, or if a last scan that was dropped would lengthen the recording by so much. Pauses
-  /// count if they take more than 5 % of the time, flags if they leave less than that.
+  /// count if they take more than 5 % of the time, flags if they take more than 95 %.
   std::string MissingInput() const;
 
   double DataSeconds() const { return begin_ns && end_ns ? Seconds(*end_ns - *begin_ns) : 0.0; }

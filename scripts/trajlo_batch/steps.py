@@ -20,7 +20,7 @@ from trajlo_report import names
 from trajlo_report.files import ReportError
 
 EXIT_REASONS = {0: "ok", 1: "configuration refused", 2: "input unreadable",
-                3: "a part of the input was damaged", 4: "estimator lost",
+                3: "input damaged, left out in part or in doubt", 4: "estimator lost",
                 5: "output not writable", 6: "out of memory, or a defect"}
 INTERRUPTED = (130, 143, -signal.SIGINT, -signal.SIGTERM, -signal.SIGHUP)
 TIMEOUT = "timeout"

@@ -8,7 +8,7 @@ from trajlo_report import names, view_path
 
 VERDICTS = {
     0: "The run ended well.",
-    3: "The run ended, but a part of the input was damaged.",
+    3: "The run ended, but a part of the input was damaged or left out, or poses are in doubt.",
     4: "The estimator got lost: do not trust poses from there on.",
     5: "The output could not be written completely.",
     6: "The run failed.",

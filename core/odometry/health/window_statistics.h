@@ -75,6 +75,7 @@ struct WindowStatistics {
 
   /// One more round of the window.
   void Add(const SolveSummary& solve, const SolverOptions& options);
+  /// Whether another round is due.
   bool GoesOn(int max_rounds) const { return rounds < max_rounds && !has_converged && is_finite; }
 
   /// A window that follows the scene settles within five rounds, but for the first ones of a jerk.
