@@ -5,15 +5,11 @@
 #include <limits>
 #include <utility>
 
-#include "core/odometry/health/agreement.h"
 #include "core/odometry/health/belief.h"
 #include "core/odometry/parallel/side_task.h"
 #include "core/odometry/stopwatch.h"
-#include "core/odometry/window/associate_window.h"
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/enter_map.h"
-#include "core/odometry/window/fit_kernel.h"
-#include "core/odometry/window/graduated_kernel.h"
 #include "core/odometry/window/point_scatter.h"
 #include "core/odometry/window/push_segment.h"
 
@@ -33,12 +29,12 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
                 [this](SegmentCloud segment) {
                   rig_.Apply(&segment);
                   Take(std::move(segment));
-                  HandOnPoses();
+                  poses_.HandOn();
                 }),
       rig_(options.segmenter.learn_rig),
       map_(options.map),
       motion_prior_(options.motion_prior),
-      solver_(make_solver(options.solver, &threads_)) {}
+      estimator_(options.registration, options.solver, make_solver, &threads_) {}
 
 void Odometry::AddScan(const LidarScan& scan) { segments_.Add(scan); }
 
@@ -49,7 +45,7 @@ void Odometry::Finish() {
   if (beginning_) Start();
   SettleWindow(std::numeric_limits<std::int64_t>::max());
   SettleStretch();
-  HandOnPoses();
+  poses_.HandOn();
 }
 
 void Odometry::Take(SegmentCloud cloud) {
@@ -58,7 +54,7 @@ void Odometry::Take(SegmentCloud cloud) {
     return;
   }
   if (cloud.is_gap && !support_.was_supported() && !search_) {
-    if (!trajectory_.empty()) {
+    if (!trajectory().empty()) {
       SettleWindow(cloud.end_ns);
       window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
       window_.begin_flags = kFlagGap;
@@ -85,10 +81,12 @@ void Odometry::Step(SegmentCloud cloud) {
 
   WindowStatistics statistics;
   statistics.restless = RestlessStep(window_.segments.back().cloud);
-  AssociateAndSolve(&window_, &statistics);
+  estimator_.AssociateAndSolve(map_, &window_, &statistics);
   if (doubt_.IsContradicted(statistics.agreement)) LookAgain(predicted, &statistics);
   // Before the points ever held the body, there is no prediction to trust.
-  if (support_.was_supported()) LeaveOutUnsupported(predicted, &window_, &statistics);
+  if (support_.was_supported()) {
+    estimator_.LeaveOutUnsupported(predicted, &window_, &statistics);
+  }
   statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
   if (IsBlind()) {
     TakeBackAndSearch(predicted);
@@ -102,39 +100,6 @@ void Odometry::Step(SegmentCloud cloud) {
   while (window_.size() > to_keep) Leave(&statistics);
   Report(&statistics);
   LookAround(statistics.agreement);
-}
-
-/// Until the step is small: which planes the points belong to, and the poses that bring them there.
-void Odometry::AssociateAndSolve(Window* window, WindowStatistics* s) {
-  GraduatedKernel kernel(*window, options_.registration.kernel_m);
-  Segment* newest = &window->segments.back();
-  while (s->GoesOn(options_.solver.max_rounds)) {
-    Stopwatch watch;
-    s->searched += AssociateWindow(map_, options_.solver.step_tolerance, &threads_, window);
-    if (s->rounds == 0) FitKernel(options_.registration, window);
-    s->milliseconds_associate += watch.Milliseconds();
-    const bool is_widened = kernel.Widen(newest);
-    s->Add(solver_->Solve(window), options_.solver);
-    if (is_widened) {
-      kernel.Restore(newest);
-      s->has_converged = false;
-    }
-    s->milliseconds_solve += watch.Milliseconds();
-  }
-  s->agreement = AgreementOf(*window, *newest).worst;
-}
-
-/// Solves again without the points that do not hold their segments, from the prediction: what is
-/// left agrees with it.
-void Odometry::LeaveOutUnsupported(const std::vector<SE3>& predicted, Window* window,
-                                   WindowStatistics* s) {
-  if (!s->is_finite || !SilenceUnsupported(window)) return;
-  Stopwatch watch;
-  window->BeginAgainAt(predicted);
-  const int last_round = s->rounds + options_.solver.max_rounds;
-  s->has_converged = false;
-  while (s->GoesOn(last_round)) s->Add(solver_->Solve(window), options_.solver);
-  s->milliseconds_solve += watch.Milliseconds();
 }
 
 void Odometry::BelieveOrRevert(const std::vector<SE3>& predicted,
@@ -168,7 +133,7 @@ void Odometry::Watch(WindowStatistics* statistics) {
   if (inlier_watch_.HasFew(*statistics)) statistics->flags |= kFlagFewInliers;
   // These take time to show: they hold for all poses that are still here.
   const unsigned late = statistics->flags & (kFlagFewInliers | kFlagJump);
-  if (first_pose_) first_pose_->flags |= late;
+  poses_.FlagFirst(late);
   window_.begin_flags |= late;
   for (Segment& segment : window_.segments) segment.flags |= late;
   doubt_.Update(window_, *statistics, motion_prior_.density());
@@ -231,8 +196,8 @@ void Odometry::SettleWindow(std::int64_t before_ns) {
 
 /// The pose at the front of the window leaves it.
 void Odometry::SettleFront() {
-  const Matrix6d covariance =
-      on_pose_ ? PoseCovariance(AssembleWindow(window_), 0) : Matrix6d(Matrix6d::Zero());
+  const Matrix6d covariance = poses_.has_callback() ? PoseCovariance(AssembleWindow(window_), 0)
+                                                    : Matrix6d(Matrix6d::Zero());
   const bool is_lost = lost_at_ns_ && window_.begin_ns >= *lost_at_ns_;
   const unsigned flags = window_.begin_flags | (is_lost ? kFlagLost : 0U);
   const LeavingPose leaving = {{window_.begin_ns, window_.T_world_begin, flags}, covariance};
@@ -246,21 +211,10 @@ void Odometry::SettleFront() {
 
 /// The trajectory begins where the map does: what was before it, nothing tells.
 void Odometry::Settle(const LeavingPose& leaving) {
-  if (trajectory_.empty() && !HasMap()) return;
-  if (first_pose_) Settle({*std::exchange(first_pose_, std::nullopt)});
-  if (trajectory_.empty()) segments_.NoteFirstPose(leaving.pose.t_ns);
-  trajectory_.Append(leaving.pose);
-  if (!on_pose_) return;
-  settled_.push_back({leaving.pose, motion_prior_.covariance_scale() * leaving.covariance});
-}
-
-/// When all else is done: the callback may throw.
-void Odometry::HandOnPoses() {
-  while (!settled_.empty()) {
-    const LeavingPose settled = settled_.front();
-    settled_.pop_front();
-    on_pose_(settled.pose, settled.covariance);
-  }
+  const bool is_first = trajectory().empty();
+  if (is_first && !HasMap()) return;
+  poses_.Append({leaving.pose, motion_prior_.covariance_scale() * leaving.covariance});
+  if (is_first) segments_.NoteFirstPose(trajectory().poses().front().t_ns);
 }
 
 }  // namespace trajlo

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -21,9 +19,10 @@
 #include "core/odometry/solvers/window_solver.h"
 #include "core/odometry/start/beginning.h"
 #include "core/odometry/start/return_search.h"
-#include "core/odometry/trajectory/trajectory.h"
+#include "core/odometry/trajectory/final_poses.h"
 #include "core/odometry/window/hindsight.h"
 #include "core/odometry/window/window.h"
+#include "core/odometry/window_estimator.h"
 
 namespace trajlo {
 
@@ -66,11 +65,11 @@ class Odometry {
   /// it is in doubt where the body is. What the map has drifted since the start is not in it.
   /// Computed only if this is set.
   void OnPose(std::function<void(const ControlPose&, const Matrix6d& covariance)> callback) {
-    on_pose_ = std::move(callback);
+    poses_.OnPose(std::move(callback));
   }
 
   /// The control poses that are final (all of them after Finish).
-  const Trajectory& trajectory() const { return trajectory_; }
+  const Trajectory& trajectory() const { return poses_.trajectory(); }
   const MapPyramid& map() const { return map_; }
   const RigCalibration& rig() const { return rig_; }
   PointCounts point_counts() const { return segments_.point_counts(); }
@@ -97,9 +96,6 @@ class Odometry {
   bool IsBlind() const;
   void TakeBackAndSearch(const std::vector<SE3>& predicted);
   void NoteSupport();
-  void AssociateAndSolve(Window* window, WindowStatistics* statistics);
-  void LeaveOutUnsupported(const std::vector<SE3>& predicted, Window* window,
-                           WindowStatistics* statistics);
   void LookAgain(const std::vector<SE3>& predicted, WindowStatistics* statistics);
   Eigen::Vector3d TurnAxis() const;
   void LookAround(double agreement);
@@ -111,7 +107,6 @@ class Odometry {
   int SegmentsToKeep() const;
   void Leave(WindowStatistics* statistics);
   void Report(WindowStatistics* statistics);
-  void HandOnPoses();
   void SettleWindow(std::int64_t before_ns);
   void SettleFront();
   bool MustWait() const;
@@ -127,7 +122,7 @@ class Odometry {
   RigCalibration rig_;
   MapPyramid map_;
   MotionPrior motion_prior_;
-  std::unique_ptr<WindowSolver> solver_;
+  WindowEstimator estimator_;
   InlierWatch inlier_watch_;
   LossWatch loss_watch_;
   SupportWatch support_;
@@ -136,13 +131,10 @@ class Odometry {
   std::optional<ReturnSearch> search_;  ///< While nobody knows where the body is.
   Window window_;
   Hindsight hindsight_;  ///< While it is in doubt where the body is.
-  Trajectory trajectory_;
-  std::deque<LeavingPose> settled_;  ///< Final, and not handed on yet.
+  FinalPoses poses_;
   std::function<void(const WindowStatistics&)> on_window_;
-  std::function<void(const ControlPose&, const Matrix6d&)> on_pose_;
   std::optional<std::int64_t> lost_at_ns_;
   std::optional<Beginning> beginning_ = Beginning{};  ///< Until a map begins.
-  std::optional<ControlPose> first_pose_;             ///< Until the next one is final.
   /// LookAround() waits for a window that begins then.
   std::int64_t next_look_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t windows_ = 0;

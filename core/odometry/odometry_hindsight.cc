@@ -27,7 +27,7 @@ int PointsOnPlanes(const Window& window, int segments) {
 /// Poses that leave the window while it is not sure where the body is wait until it is.
 bool Odometry::MustWait() const {
   if (!hindsight_.is_empty()) return true;
-  return support_.was_supported() && !trajectory_.empty() && !doubt_.IsSure();
+  return support_.was_supported() && !trajectory().empty() && !doubt_.IsSure();
 }
 
 void Odometry::Wait(const LeavingPose& leaving) {
@@ -60,8 +60,8 @@ std::optional<Window> Odometry::Reestimate(Window joined, WindowStatistics* stat
   motion_prior_.Apply(&joined);
   const std::vector<SE3> start = joined.Poses();
   WindowStatistics rounds;
-  AssociateAndSolve(&joined, &rounds);
-  LeaveOutUnsupported(start, &joined, &rounds);
+  estimator_.AssociateAndSolve(map_, &joined, &rounds);
+  estimator_.LeaveOutUnsupported(start, &joined, &rounds);
   statistics->milliseconds_associate += rounds.milliseconds_associate;
   statistics->milliseconds_solve += rounds.milliseconds_solve;
   if (!rounds.is_finite) return std::nullopt;

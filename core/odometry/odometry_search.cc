@@ -50,7 +50,7 @@ void Odometry::LookAgain(const std::vector<SE3>& predicted, WindowStatistics* st
   // Both looks take time, whichever is kept.
   again.milliseconds_associate = statistics->milliseconds_associate;
   again.milliseconds_solve = statistics->milliseconds_solve;
-  AssociateAndSolve(&window_, &again);
+  estimator_.AssociateAndSolve(map_, &window_, &again);
   const bool is_better = again.is_finite && again.agreement > statistics->agreement;
   if (is_better && !IsUnsupported(window_, newest)) {
     motion_prior_.Apply(&window_);
@@ -173,7 +173,7 @@ void Odometry::Search(bool is_last) {
 void Odometry::BeginAgain(const ReturnSweep& sweep) {
   SettleWindow(sweep.cloud.begin_ns);
   SettleStretch();
-  const unsigned flags = trajectory_.empty() ? 0U : kFlagGap;
+  const unsigned flags = trajectory().empty() ? 0U : kFlagGap;
   Begin({search_->TakeSegments(), window_.T_world_begin, flags});
 }
 
@@ -194,7 +194,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
   } else {
     // The mean velocity since the points held the body: all of that is settled by now.
     const std::int64_t seen_ns = search_->last().supported_until_ns;
-    const SE3 T_world_seen = trajectory_.At(seen_ns).value_or(T_world_begin);
+    const SE3 T_world_seen = trajectory().At(seen_ns).value_or(T_world_begin);
     window_.begin_velocity =
         Minus(T_world_begin, T_world_seen) / Seconds(sweep.cloud.begin_ns - seen_ns);
     EnterMap(sweep.cloud, T_world_begin, T_world_begin, &threads_, &map_);

@@ -71,8 +71,8 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
   const SE3 T_end = T_begin * se3::Exp(velocity * duration_s);
   EnterMap(cloud, T_begin, T_end, &threads_, &map_);
   const ControlPose first = {cloud.begin_ns, T_begin, flags};
-  if (duration_s > 0.0 && trajectory_.empty() && HasMap()) {
-    first_pose_ = first;
+  if (duration_s > 0.0 && trajectory().empty() && HasMap()) {
+    poses_.Begin(first);
   } else if (duration_s > 0.0) {
     Settle({first});
   }
@@ -86,7 +86,7 @@ void Odometry::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vec
 /// the recording begins behind the gap.
 void Odometry::Forget(std::int64_t until_ns) {
   map_ = MapPyramid(options_.map);
-  first_pose_.reset();
+  poses_.ForgetFirst();
   window_ = MakeWindow(until_ns, SE3());
 }
 

@@ -3,17 +3,11 @@
 
 #include <vector>
 
-#include "core/odometry/trajectory/trajectory.h"
+#include "core/odometry/trajectory/final_poses.h"
 #include "core/odometry/window/marginalize.h"
 #include "core/odometry/window/window.h"
 
 namespace trajlo {
-
-/// A control pose that leaves the window, and the covariance that it has there.
-struct LeavingPose {
-  ControlPose pose;
-  Matrix6d covariance = Matrix6d::Zero();
-};
 
 /// What has left the window while it was in doubt where the body is. Then the motion prior carries
 /// the poses, or wrong planes do, and they leave before the points hold the body again. When they
