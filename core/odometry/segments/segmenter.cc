@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/segments/turn_up.h"
 
 namespace trajlo {
@@ -34,8 +33,8 @@ Segmenter::Segmenter(const SegmenterOptions& options)
       interval_ns_(DurationNs(options.interval_s)),
       max_gap_ns_(DurationNs(options.max_gap_s)),
       max_lag_ns_(ToNs(options.max_lag_s)),
-      map_filter_(options.map_voxel_m),
-      registration_filter_(options.registration_voxel_m),
+      thinner_(options.map_voxel_m, options.registration_voxel_m,
+               static_cast<std::size_t>(options.max_registration_points)),
       complete_until_ns_(kUnseen),
       newest_ns_(std::max<std::size_t>(options.T_body_lidar.size(), 1), kUnseen),
       discrete_step_ns_(interval_ns_) {}
@@ -228,17 +227,8 @@ std::optional<SegmentCloud> Segmenter::Next() {
     cloud.lidar_origins_body_m.push_back(PoseOf(lidar).t);
     cloud.corrections.push_back({SE3(), slot.clocks_s[lidar]});
   }
-  Thin(slot.points, &cloud);
+  thinner_.Thin(slot.points, &cloud);
   return cloud;
-}
-
-void Segmenter::Thin(const std::vector<SegmentPoint>& points, SegmentCloud* cloud) {
-  map_filter_.Filter(points, &cloud->map_points);
-  registration_filter_.Filter(cloud->map_points, &cloud->registration_points);
-  if (options_.max_registration_points > 0) {
-    cloud->registration_points = ChooseEvenly(
-        cloud->registration_points, static_cast<std::size_t>(options_.max_registration_points));
-  }
 }
 
 }  // namespace trajlo

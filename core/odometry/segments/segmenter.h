@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/odometry/segments/segment_cloud.h"
-#include "core/odometry/segments/voxel_filter.h"
+#include "core/odometry/segments/segment_thinner.h"
 #include "core/options/describe.h"
 #include "core/scans/lidar_scan.h"
 #include "manifolds/se3.h"
@@ -49,7 +49,8 @@ struct SegmenterOptions {
     d(OptionFor::kExperts, "map_voxel_m", map_voxel_m, Range<double>{1e-3, 10.0},
       "At most one point of a segment enters the map per cell of this size.");
     d(OptionFor::kExperts, "registration_voxel_m", registration_voxel_m, Range<double>{1e-3, 20.0},
-      "Of these, at most one is registered per cell of this size.");
+      "Of these, at most one is registered per cell of this size; half of it where few cells are "
+      "hit.");
     d(OptionFor::kUsers, "max_registration_points", max_registration_points, Range<int>{0, 1000000},
       "At most this many points of a segment are registered, taken evenly; 0 takes all.");
     d(OptionFor::kExperts, "max_gap_s", max_gap_s, Range<double>{1e-3, 1e3},
@@ -105,13 +106,11 @@ class Segmenter {
   void OpenNext(std::int64_t end_ns, bool is_gap = false);
   void CompleteUntil(std::int64_t t_ns);
   std::int64_t FirstOpen_ns() const;
-  void Thin(const std::vector<SegmentPoint>& points, SegmentCloud* cloud);
 
   SegmenterOptions options_;
   std::int64_t interval_ns_, max_gap_ns_, max_lag_ns_;
   PointCounts counts_;
-  VoxelFilter map_filter_;
-  VoxelFilter registration_filter_;
+  SegmentThinner thinner_;
   std::size_t usual_points_ = 0;  ///< What a segment holds, and a little more.
   std::deque<Slot> slots_;        ///< Not yet handed out, without holes.
   std::int64_t complete_until_ns_;
