@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/map/map_pyramid.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -80,6 +81,7 @@ void MapPyramid::RemoveFar(const Eigen::Vector3d& center_world) {
 void MapPyramid::AskLevel(int i, Batch* batch) const {
   const MapLevel& level = levels_[static_cast<std::size_t>(i)];
   const std::size_t count = batch->open_count;
+  const auto min_width_m = static_cast<float>(PlaneFitOptions::kMinWidthInScatters * scatter_m_);
   std::array<VoxelKey, kMaxBatch> cells;
   std::array<VoxelIndex::Slot, kMaxBatch> slots;
   std::array<const VoxelIndex::Entry*, kMaxBatch> sites;
@@ -99,7 +101,7 @@ void MapPyramid::AskLevel(int i, Batch* batch) const {
     const Eigen::Vector3d center_world =
         level.shares_planes() ? level.CenterOf(cells[j]) : asked.place_world;
     const FittedPlane plane = level.PlaneAt(*sites[j], cells[j], center_world);
-    if (!plane.exists() || plane.width_m < min_width_m_) continue;
+    if (!plane.exists() || plane.width_m < min_width_m) continue;
     const bool is_grazed = IsGrazed(plane, asked.ray_world);
     if (!is_grazed && plane.IsBehind(asked.ray_world)) continue;
     Batch::Query& query = batch->queries[q];
@@ -126,6 +128,17 @@ bool MapPyramid::IsWideAndThin(const FittedPlane& plane) const {
          plane.thickness_m < static_cast<float>(plane_.max_wide_flatness) * plane.width_m;
 }
 
+/// 1 / ((1 + e² / half²) coarseness⁴), of what the thickness l0 exceeds that of noise:
+/// e² = l0² - noise².
+double MapPyramid::WeightOf(const FittedPlane& plane, double coarseness) const {
+  constexpr double kHalf_m = PlaneFitOptions::kHalfWeightThickness_m;
+  const double thickness_m = plane.thickness_m;
+  const double noise_m = PlaneFitOptions::kThicknessOfNoise * scatter_m_;
+  const double excess_m2 = std::max(0.0, thickness_m * thickness_m - noise_m * noise_m);
+  const double squared = coarseness * coarseness;
+  return 1.0 / ((1.0 + excess_m2 / (kHalf_m * kHalf_m)) * squared * squared);
+}
+
 void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const {
   Batch batch;
   batch.asked = queries;
@@ -145,10 +158,8 @@ void MapPyramid::FindPlanes(const PlaneQuery* queries, std::size_t count, Plane*
     plane.offset_m = plane.normal_world.dot(query.center_world) + query.plane.offset_m;
     plane.normal_variance_rad2 = query.is_grazed ? std::numeric_limits<double>::infinity()
                                                  : query.plane.normal_variance_rad2;
-    const double relative = query.plane.thickness_m / PlaneFitOptions::kHalfWeightThickness_m;
     plane.coarseness = query.is_wide ? 1.0 : std::ldexp(1.0, query.level);
-    const double squared = plane.coarseness * plane.coarseness;
-    plane.weight = 1.0 / ((1.0 + relative * relative) * squared * squared);
+    plane.weight = WeightOf(query.plane, plane.coarseness);
   }
 }
 

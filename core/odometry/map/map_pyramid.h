@@ -70,10 +70,9 @@ class MapPyramid {
     levels_.front().points().DropRefused(points);
   }
   /// How far points lie from their planes (a standard deviation), as far as that is known. Planes
-  /// that are hardly wider are noise: FindPlanes() takes a coarser one, or none.
-  void SetScatter(double scatter_m) {
-    min_width_m_ = static_cast<float>(PlaneFitOptions::kMinWidthInScatters * scatter_m);
-  }
+  /// that are hardly wider are noise: FindPlanes() takes a coarser one, or none. Those that are
+  /// hardly thicker have full weight.
+  void SetScatter(double scatter_m) { scatter_m_ = scatter_m; }
   void RemoveFar(const Eigen::Vector3d& center_world);
 
   /// Within a cell of the finest level, all levels have the same planes, if they are shared.
@@ -97,10 +96,11 @@ class MapPyramid {
   void AskLevel(int level, Batch* batch) const;
   bool IsGrazed(const FittedPlane& plane, const Eigen::Vector3f& ray_world) const;
   bool IsWideAndThin(const FittedPlane& plane) const;
+  double WeightOf(const FittedPlane& plane, double coarseness) const;
 
   PlaneFitOptions plane_;
   std::int64_t version_ = 0;
-  float min_width_m_ = 0.0F;
+  double scatter_m_ = 0.0;
   std::deque<MapLevel> levels_;
 };
 

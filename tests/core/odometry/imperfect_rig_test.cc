@@ -68,7 +68,7 @@ TEST_P(ImperfectRig, IsCorrected) {
   const Result corrected = Fly(GetParam(), WrongRig(), true);
   ExpectCorrected(corrected);
   EXPECT_LT(corrected.error_m, 0.06);
-  EXPECT_LT(5.0 * corrected.error_m, Fly(GetParam(), WrongRig(), false).error_m);
+  EXPECT_LT(4.0 * corrected.error_m, Fly(GetParam(), WrongRig(), false).error_m);
 }
 
 TEST_P(ImperfectRig, ThatIsRightStaysSo) {

@@ -139,6 +139,32 @@ TEST(MapPyramid, APlaneThatIsWideBesideTheNoiseStays) {
   }
 }
 
+/// Mean weight of the planes on a ground that is rough by `sigma_m`.
+double MeanWeightOnGround(double sigma_m, double scatter_m) {
+  std::vector<Eigen::Vector3d> ground;
+  testing::Random random(16);
+  for (const double x : Steps(-4.0, 4.0, 0.05)) {
+    for (const double y : Steps(-4.0, 4.0, 0.05)) {
+      ground.emplace_back(x, y, 0.2 + random.Gaussian(sigma_m));
+    }
+  }
+  MapPyramid map = MakeMap({}, ground, 1);
+  map.SetScatter(scatter_m);
+  double sum = 0.0;
+  const std::vector<double> places = Steps(-2.0, 2.0, 0.1);
+  for (const double y : places) {
+    sum += PlaneAt(map, {{0.0, y, 0.2}, {1.0F, 0.0F, -1.0F}}).weight;
+  }
+  return sum / static_cast<double>(places.size());
+}
+
+TEST(MapPyramid, ThicknessThatNoiseExplainsCostsNoWeight) {
+  EXPECT_LT(MeanWeightOnGround(0.02, 0.0), 0.8);
+  EXPECT_GT(MeanWeightOnGround(0.02, 0.02), 0.93);
+  // What is thicker than that, does.
+  EXPECT_LT(MeanWeightOnGround(0.08, 0.02), 0.4);
+}
+
 TEST(MapPyramid, APostBeforeAWallIsNotTheWall) {
   std::vector<Eigen::Vector3d> wall_then_post;
   for (const double y : Steps(-4.0, 4.0, 0.05)) {
