@@ -21,6 +21,10 @@ namespace trajlo {
 /// 1991.
 enum class AlignmentKind { kNone, kOrigin, kSe3, kSim3, kScale };
 
+inline bool HasScale(AlignmentKind kind) {
+  return kind == AlignmentKind::kSim3 || kind == AlignmentKind::kScale;
+}
+
 struct AlignmentOptions {
   AlignmentKind kind = AlignmentKind::kSe3;
   /// Positive: it is computed from this many pairs at the beginning, and applied to all.

@@ -74,8 +74,7 @@ double FindTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
   search.around_s = options.time_offset_s;
   search.reach_s = options.time_offset_reach_s;
   search.association = options.association;
-  const AlignmentKind kind = options.alignment.kind;
-  search.with_scale = kind == AlignmentKind::kSim3 || kind == AlignmentKind::kScale;
+  search.with_scale = HasScale(options.alignment.kind);
   const TimeOffset found =
       EstimateTimeOffset(InFrame(estimate, options.T_body_truth), truth, search);
   if (!found.warning.empty()) evaluation->warnings.push_back(found.warning);
@@ -84,8 +83,9 @@ double FindTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
 }
 
 /// Says where an error is mostly none of the estimate's.
-void WarnOfOtherCauses(const TimedPoses& estimate, const TimedPoses& truth, std::int64_t offset_ns,
+void WarnOfOtherCauses(const TimedPoses& estimate, const TimedPoses& truth,
                        const PoseAssociationOptions& options, Evaluation* evaluation) {
+  const std::int64_t offset_ns = Nanoseconds(evaluation->time_offset_s);
   const double rmse_m = evaluation->absolute.translation_m.rmse;
   if (options.rule == AssociationRule::kInterpolate) {
     const double max_gap_s = options.max_gap_s > 0.0 ? options.max_gap_s : MaxGap(truth.t_ns);
@@ -114,6 +114,42 @@ double PairedShare(const std::vector<PosePair>& pairs, const TimedPoses& counted
   return static_cast<double>(indices.size()) / static_cast<double>(counted.size());
 }
 
+/// `counted` is the trajectory whose poses the pairs' indices count.
+void PairUp(const TimedPoses& estimate, const TimedPoses& truth, const TimedPoses& counted,
+            const EvaluationOptions& options, Evaluation* evaluation) {
+  const std::int64_t offset_ns = Nanoseconds(evaluation->time_offset_s);
+  std::vector<PosePair>& pairs = evaluation->pairs;
+  pairs = Associate(estimate, truth, offset_ns, options.association);
+  // After the association: between two poses the body moves, and the lever arm turns with it.
+  for (PosePair& pair : pairs) pair.estimate = pair.estimate * options.T_body_truth;
+
+  std::vector<Eigen::Affine3d> truth_of_pairs;
+  for (const PosePair& pair : pairs) truth_of_pairs.push_back(pair.truth);
+  evaluation->path_length_m = PathLength(truth_of_pairs);
+  if (estimate.HasStamps() && truth.HasStamps()) {
+    evaluation->duration_s = Seconds(pairs.back().t_ns - pairs.front().t_ns);
+  }
+  evaluation->completeness = Completeness(estimate, truth, offset_ns, options.max_estimate_gap_s);
+  evaluation->paired_share = PairedShare(pairs, counted);
+}
+
+void AlignPairs(const AlignmentOptions& options, Evaluation* evaluation) {
+  evaluation->alignment = ComputeAlignment(evaluation->pairs, options);
+  if (!evaluation->alignment.warning.empty()) {
+    evaluation->warnings.push_back(evaluation->alignment.warning);
+  }
+  for (std::string& warning : JudgeShape(evaluation->pairs, HasScale(options.kind))) {
+    evaluation->warnings.push_back(std::move(warning));
+  }
+  for (PosePair& pair : evaluation->pairs) pair.estimate = evaluation->alignment * pair.estimate;
+}
+
+void DoubtRotations(Evaluation* evaluation) {
+  RotationDoubt doubt = JudgeRotations(evaluation->pairs, evaluation->alignment);
+  evaluation->rotation_determined = doubt.determined;
+  for (std::string& warning : doubt.warnings) evaluation->warnings.push_back(std::move(warning));
+}
+
 }  // namespace
 
 bool UsesOrientation(const TimedPoses& truth, TruthOrientation orientation) {
@@ -132,44 +168,19 @@ Evaluation Evaluate(const TimedPoses& estimate, const TimedPoses& truth,
   if (!timed && options.alignment.first_seconds > 0.0) {
     throw EvaluationError("without stamps the first seconds cannot be told");
   }
-  evaluation.time_offset_s = FindTimeOffset(estimate, truth, options, &evaluation);
-  const std::int64_t offset_ns = Nanoseconds(evaluation.time_offset_s);
-  evaluation.pairs = Associate(estimate, truth, offset_ns, options.association);
-  // After the association: between two poses the body moves, and the lever arm turns with it.
-  for (PosePair& pair : evaluation.pairs) pair.estimate = pair.estimate * options.T_body_truth;
-
-  std::vector<Eigen::Affine3d> truth_of_pairs;
-  for (const PosePair& pair : evaluation.pairs) truth_of_pairs.push_back(pair.truth);
-  evaluation.path_length_m = PathLength(truth_of_pairs);
-  if (timed) {
-    evaluation.duration_s = Seconds(evaluation.pairs.back().t_ns - evaluation.pairs.front().t_ns);
-  }
-  evaluation.completeness = Completeness(estimate, truth, offset_ns, options.max_estimate_gap_s);
   // The trajectory whose poses the pairs' indices count.
   const TimedPoses& counted =
       timed && options.association.rule == AssociationRule::kInterpolateEstimate ? truth : estimate;
-  evaluation.paired_share = PairedShare(evaluation.pairs, counted);
+  evaluation.time_offset_s = FindTimeOffset(estimate, truth, options, &evaluation);
+  PairUp(estimate, truth, counted, options, &evaluation);
+  // Of the estimate as it is: neither aligned nor scaled.
   EvaluateKitti(evaluation.pairs, &evaluation);
 
-  evaluation.alignment = ComputeAlignment(evaluation.pairs, options.alignment);
-  if (!evaluation.alignment.warning.empty()) {
-    evaluation.warnings.push_back(evaluation.alignment.warning);
-  }
-  const AlignmentKind kind = options.alignment.kind;
-  const bool with_scale = kind == AlignmentKind::kSim3 || kind == AlignmentKind::kScale;
-  for (std::string& warning : JudgeShape(evaluation.pairs, with_scale)) {
-    evaluation.warnings.push_back(std::move(warning));
-  }
-  for (PosePair& pair : evaluation.pairs) pair.estimate = evaluation.alignment * pair.estimate;
+  AlignPairs(options.alignment, &evaluation);
   evaluation.errors = AbsoluteErrors(evaluation.pairs, evaluation.has_orientation);
   evaluation.absolute = Statistics(evaluation.errors);
-  if (timed) WarnOfOtherCauses(estimate, truth, offset_ns, options.association, &evaluation);
-  if (evaluation.has_orientation) {
-    const RotationDoubt doubt = JudgeRotations(evaluation.pairs, evaluation.alignment);
-    evaluation.rotation_determined = doubt.determined;
-    evaluation.warnings.insert(evaluation.warnings.end(), doubt.warnings.begin(),
-                               doubt.warnings.end());
-  }
+  if (timed) WarnOfOtherCauses(estimate, truth, options.association, &evaluation);
+  if (evaluation.has_orientation) DoubtRotations(&evaluation);
   for (const RelativeErrorOptions& relative : options.relative) {
     evaluation.relative.push_back(EvaluateRelative(evaluation, counted.t_ns, relative));
   }

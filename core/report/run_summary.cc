@@ -10,6 +10,9 @@
 namespace trajlo {
 namespace {
 
+/// A smaller part of the input is not worth an exit code.
+constexpr double kSizeableShare = 0.05;
+
 std::string Seconds(double seconds) { return FormatText("%.1f s", seconds); }
 
 }  // namespace
@@ -45,75 +48,11 @@ std::string RunSummary::OddStamps() const {
 }
 
 std::string RunSummary::MissingInput() const {
-  constexpr double kSizeableShare = 0.05;
   std::vector<std::string> parts;
-  if (read.file_is_cut) parts.emplace_back("a part of the file is missing or broken");
-  if (read.scans_damaged > 0) {
-    parts.push_back(CountOf(read.scans_damaged, "scan is", "scans are") + " damaged");
-  }
-  if (read.scans_skipped > 0) {
-    parts.push_back(CountOf(read.scans_skipped, "scan") + " could not be read at all");
-  }
-  if (ShareWithWrongTimes() > kSizeableShare) {
-    parts.push_back(std::to_string(std::lround(100.0 * ShareWithWrongTimes())) +
-                    " % of the points were dropped because of their times (" +
-                    std::to_string(points.too_late) + " too late, " +
-                    std::to_string(points.wrong_time) + " of wrong stamps, " +
-                    std::to_string(read.points_without_time) + " impossible, as NaN is)");
-  }
-  const auto scans = static_cast<double>(times.scans);
-  const std::int64_t assumed = times.assumed + times.retimed + times.moved;
-  if (static_cast<double>(assumed) > kSizeableShare * scans) {
-    parts.push_back("the times of " + std::to_string(assumed) + " of " +
-                    std::to_string(times.scans) + " scans are not those of their stamps");
-  }
-  if (static_cast<double>(times.odd_point_times) > kSizeableShare * scans) {
-    parts.push_back("of " + std::to_string(times.scans) +
-                    " scans some have one time for all points, the others one for each");
-  }
-  if (static_cast<double>(times.stuck) > kSizeableShare * scans) {
-    parts.push_back(std::to_string(times.stuck) + " of " + std::to_string(times.scans) +
-                    " scans have the points of a scan before");
-  }
-  if (static_cast<double>(times.exchanged) > kSizeableShare * scans) {
-    parts.push_back(std::to_string(times.exchanged) + " of " + std::to_string(times.scans) +
-                    " scans may be out of order, by what they show");
-  }
-  if (static_cast<double>(times.before_first_pose) > kSizeableShare * scans) {
-    parts.push_back("the first " + std::to_string(times.before_first_pose) + " of " +
-                    std::to_string(times.scans) +
-                    " scans show nothing, or too little, of the world" +
-                    (times.Dropped() > 0 ? ", or were dropped for their stamps" : "") +
-                    ": the trajectory begins after them");
-  }
-  if (static_cast<double>(times.Unseen()) > kSizeableShare * scans) {
-    parts.push_back("the last " + std::to_string(times.Unseen()) + " of " +
-                    std::to_string(times.scans) +
-                    " scans have no point that can be used: the trajectory ends before them");
-  }
-  if (times.doubtful_begin_s > kSizeableShare * DataSeconds()) {
-    parts.push_back("by its stamp, the first scan comes " + Seconds(times.doubtful_begin_s) +
-                    " before the next; nothing confirms that, and it was left out");
-  }
-  if (times.doubtful_end_s > kSizeableShare * DataSeconds()) {
-    parts.push_back("by its stamp, the last scan comes " + Seconds(times.doubtful_end_s) +
-                    " after the one before; nothing confirms that, and it was left out");
-  }
-  if (too_short) {
-    parts.emplace_back(
-        "the recording is too short for a window (expert.initialization.first_interval_s): nothing "
-        "confirms how the body moved");
-  }
-  const double unmeasured_s = flags.totals().at("gap").seconds;
-  if (unmeasured_s > kSizeableShare * flags.seconds()) {
-    parts.push_back(
-        FormatText("nothing was measured for %.2f of %.2f s", unmeasured_s, flags.seconds()));
-  }
-  if (!too_short && flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
-    parts.push_back(
-        FormatText("%.2f of %.2f s have a flag (flags.csv)", flags.any().seconds, flags.seconds()) +
-        ": hardly a pose can be relied on");
-  }
+  AddDamage(&parts);
+  AddOddTimes(&parts);
+  AddUnseenEnds(&parts);
+  AddWeakTrajectory(&parts);
   for (const LidarPlace& place : rig) {
     if (place.evidence != RigEvidence::kContradicted) continue;
     parts.push_back("LiDAR " + std::to_string(place.lidar) +
@@ -123,6 +62,87 @@ std::string RunSummary::MissingInput() const {
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", and ") + part;
   return text;
+}
+
+void RunSummary::AddDamage(std::vector<std::string>* parts) const {
+  if (read.file_is_cut) parts->emplace_back("a part of the file is missing or broken");
+  if (read.scans_damaged > 0) {
+    parts->push_back(CountOf(read.scans_damaged, "scan is", "scans are") + " damaged");
+  }
+  if (read.scans_skipped > 0) {
+    parts->push_back(CountOf(read.scans_skipped, "scan") + " could not be read at all");
+  }
+  if (ShareWithWrongTimes() > kSizeableShare) {
+    parts->push_back(std::to_string(std::lround(100.0 * ShareWithWrongTimes())) +
+                     " % of the points were dropped because of their times (" +
+                     std::to_string(points.too_late) + " too late, " +
+                     std::to_string(points.wrong_time) + " of wrong stamps, " +
+                     std::to_string(read.points_without_time) + " impossible, as NaN is)");
+  }
+}
+
+void RunSummary::AddOddTimes(std::vector<std::string>* parts) const {
+  const std::int64_t assumed = times.assumed + times.retimed + times.moved;
+  const std::string of_scans = "of " + std::to_string(times.scans) + " scans ";
+  if (IsSizeable(assumed)) {
+    parts->push_back("the times of " + std::to_string(assumed) + " " + of_scans +
+                     "are not those of their stamps");
+  }
+  if (IsSizeable(times.odd_point_times)) {
+    parts->push_back(of_scans + "some have one time for all points, the others one for each");
+  }
+  if (IsSizeable(times.stuck)) {
+    parts->push_back(std::to_string(times.stuck) + " " + of_scans +
+                     "have the points of a scan before");
+  }
+  if (IsSizeable(times.exchanged)) {
+    parts->push_back(std::to_string(times.exchanged) + " " + of_scans +
+                     "may be out of order, by what they show");
+  }
+}
+
+void RunSummary::AddUnseenEnds(std::vector<std::string>* parts) const {
+  const std::string of_scans = " of " + std::to_string(times.scans) + " scans ";
+  if (IsSizeable(times.before_first_pose)) {
+    parts->push_back("the first " + std::to_string(times.before_first_pose) + of_scans +
+                     "show nothing, or too little, of the world" +
+                     (times.Dropped() > 0 ? ", or were dropped for their stamps" : "") +
+                     ": the trajectory begins after them");
+  }
+  if (IsSizeable(times.Unseen())) {
+    parts->push_back("the last " + std::to_string(times.Unseen()) + of_scans +
+                     "have no point that can be used: the trajectory ends before them");
+  }
+  if (times.doubtful_begin_s > kSizeableShare * DataSeconds()) {
+    parts->push_back("by its stamp, the first scan comes " + Seconds(times.doubtful_begin_s) +
+                     " before the next; nothing confirms that, and it was left out");
+  }
+  if (times.doubtful_end_s > kSizeableShare * DataSeconds()) {
+    parts->push_back("by its stamp, the last scan comes " + Seconds(times.doubtful_end_s) +
+                     " after the one before; nothing confirms that, and it was left out");
+  }
+}
+
+void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
+  if (too_short) {
+    parts->emplace_back(
+        "the recording is too short for a window (expert.initialization.first_interval_s): nothing "
+        "confirms how the body moved");
+  }
+  const double unmeasured_s = flags.totals().at("gap").seconds;
+  if (unmeasured_s > kSizeableShare * flags.seconds()) {
+    parts->push_back(
+        FormatText("nothing was measured for %.2f of %.2f s", unmeasured_s, flags.seconds()));
+  }
+  if (!too_short && flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
+    parts->push_back(
+        FormatText("%.2f of %.2f s have a flag (flags.csv)", flags.any().seconds, flags.seconds()) +
+        ": hardly a pose can be relied on");
+  }
+}
+
+bool RunSummary::IsSizeable(std::int64_t scans) const {
+  return static_cast<double>(scans) > kSizeableShare * static_cast<double>(times.scans);
 }
 
 }  // namespace trajlo

@@ -74,6 +74,13 @@ struct RunSummary {
 
   double DataSeconds() const { return begin_ns && end_ns ? Seconds(*end_ns - *begin_ns) : 0.0; }
   double RealTimeFactor() const { return wall_s > 0.0 ? DataSeconds() / wall_s : 0.0; }
+
+ private:
+  bool IsSizeable(std::int64_t scans) const;
+  void AddDamage(std::vector<std::string>* parts) const;
+  void AddOddTimes(std::vector<std::string>* parts) const;
+  void AddUnseenEnds(std::vector<std::string>* parts) const;
+  void AddWeakTrajectory(std::vector<std::string>* parts) const;
 };
 
 }  // namespace trajlo

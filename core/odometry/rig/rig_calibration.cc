@@ -63,14 +63,21 @@ double PlacesPassed(const SE3& T_begin, const SE3& T_end) {
   return std::min(1.0, (step.translation_m + kLeverArm_m * step.rotation_rad) / kPlace_m);
 }
 
-/// The points of each LiDAR but the reference.
-std::vector<std::vector<RegistrationPoint>> PointsByLidar(
-    const std::vector<RegistrationPoint>& points, std::size_t lidars, std::size_t reference) {
-  std::vector<std::vector<RegistrationPoint>> by_lidar(lidars);
-  for (const RegistrationPoint& point : points) {
+/// What the points of each LiDAR but the reference say of the pose of the oldest segment.
+std::vector<RigidEquations> EquationsByLidar(const Window& window, std::size_t reference) {
+  const Segment& segment = window.segments.front();
+  std::vector<std::vector<RegistrationPoint>> by_lidar(segment.cloud.corrections.size());
+  for (const RegistrationPoint& point : segment.points) {
     if (point.lidar != reference) by_lidar[point.lidar].push_back(point);
   }
-  return by_lidar;
+  const RegistrationNoise noise = window.NoiseOf(segment);
+  std::vector<RigidEquations> equations(by_lidar.size());
+  for (std::size_t l = 0; l < by_lidar.size(); ++l) {
+    if (by_lidar[l].empty()) continue;
+    equations[l] = RigidEquations(
+        LinearizeSegment(by_lidar[l], window.T_world_begin, segment.T_world_end, noise));
+  }
+  return equations;
 }
 
 }  // namespace
@@ -136,25 +143,12 @@ void RigCalibration::Learn(const Window& window) {
   NotePlaces(window);
   NoteAgreement(window);
 
+  const std::vector<RigidEquations> of = EquationsByLidar(window, *reference_);
+  const RigidEquations all(segment.registration);
+  const Eigen::LDLT<Matrix6d> pose(all.A + kPoseInformation * Matrix6d::Identity());
   // [I v]: from a change of a LiDAR's place and clock to one of the body's pose.
   Eigen::Matrix<double, 6, kUnknowns> B;
   B << Matrix6d::Identity(), TwistOf(window);
-  const RegistrationNoise noise = window.NoiseOf(segment);
-  const auto by_lidar = PointsByLidar(segment.points, lidars, *reference_);
-  std::vector<RigidEquations> of(lidars);
-  // From what the points were corrected by to what is known now.
-  Eigen::VectorXd since = Eigen::VectorXd::Zero(g_.size());
-  for (std::size_t l = 0; l < lidars; ++l) {
-    if (by_lidar[l].empty()) continue;
-    of[l] = RigidEquations(
-        LinearizeSegment(by_lidar[l], window.T_world_begin, segment.T_world_end, noise));
-    const LidarCorrection& now = lidars_[l].correction;
-    const LidarCorrection& then = segment.cloud.corrections[l];
-    since.segment<kUnknowns>(Row(l)) << se3::Log(now.T_body * then.T_body.Inverse()),
-        now.clock_s - then.clock_s;
-  }
-  const RigidEquations all(segment.registration);
-  const Eigen::LDLT<Matrix6d> pose(all.A + kPoseInformation * Matrix6d::Identity());
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(H_.rows(), H_.cols());
   Eigen::VectorXd s = Eigen::VectorXd::Zero(g_.size());
   for (std::size_t l = 0; l < lidars; ++l) {
@@ -167,8 +161,20 @@ void RigCalibration::Learn(const Window& window) {
   }
   const double kept = std::exp(-segment.Duration_s() / kMemory_s);
   H_ = kept * H_ + S;
-  g_ = kept * g_ + s + S * since;
+  g_ = kept * g_ + s + S * LearntSince(segment.cloud);
   Update();
+}
+
+/// From what the points of a segment were corrected by to what is known now.
+Eigen::VectorXd RigCalibration::LearntSince(const SegmentCloud& cloud) const {
+  Eigen::VectorXd since = Eigen::VectorXd::Zero(g_.size());
+  for (std::size_t l = 0; l < cloud.corrections.size(); ++l) {
+    const LidarCorrection& now = lidars_[l].correction;
+    const LidarCorrection& then = cloud.corrections[l];
+    since.segment<kUnknowns>(Row(l)) << se3::Log(now.T_body * then.T_body.Inverse()),
+        now.clock_s - then.clock_s;
+  }
+  return since;
 }
 
 /// The LiDARs that the oldest segment has points of have seen one place more, or a part of it.

@@ -85,6 +85,7 @@ class RigCalibration {
   void NotePlaces(const Window& window);
   void NoteAgreement(const Window& window);
   RigEvidence Judge(const Lidar& lidar) const;
+  Eigen::VectorXd LearntSince(const SegmentCloud& cloud) const;
   void Update();
 
   bool is_learning_;

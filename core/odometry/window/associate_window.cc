@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/odometry/window/fit_kernel.h"
+#include "core/odometry/window/kernel_axes.h"
 
 namespace trajlo {
 

@@ -22,7 +22,4 @@ namespace trajlo {
 /// Window::kernel_axes. For a newest segment that is predicted badly, see GraduatedKernel.
 void FitKernel(const RegistrationOptions& options, Window* window);
 
-/// Notes in each point which of the axes (columns) its normal is nearest to.
-void AssignAxes(const Eigen::Matrix3d& axes_world, std::vector<RegistrationPoint>* points);
-
 }  // namespace trajlo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/graduated_kernel.h"
+#include "core/odometry/weights/graduated_kernel.h"
 
 #include <gtest/gtest.h>
 

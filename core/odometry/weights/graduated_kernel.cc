@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/graduated_kernel.h"
+#include "core/odometry/weights/graduated_kernel.h"
 
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/window_equations.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/fit_kernel.h"
+#include "core/odometry/weights/fit_kernel.h"
 
 #include <gtest/gtest.h>
 

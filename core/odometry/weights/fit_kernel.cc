@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/fit_kernel.h"
+#include "core/odometry/weights/fit_kernel.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/odometry/window/kernel_axes.h"
 #include "core/scans/median.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -111,12 +112,6 @@ void FitKernel(const RegistrationOptions& options, Window* window) {
     if (std::abs(change) <= kSmallChange * widening) continue;
     widening += change;
     ForgetLinearizations(window);
-  }
-}
-
-void AssignAxes(const Eigen::Matrix3d& axes_world, std::vector<RegistrationPoint>* points) {
-  for (RegistrationPoint& point : *points) {
-    (axes_world.transpose() * point.normal_world).cwiseAbs().maxCoeff(&point.axis);
   }
 }
 
