@@ -84,9 +84,10 @@ std::uint64_t Fingerprint(const LidarScan& scan) {
   std::uint64_t hash = scan.points.size();
   const auto returns = std::count_if(scan.points.begin(), scan.points.end(), IsReturn);
   const std::size_t step = static_cast<std::size_t>(returns) / kSamples + 1;
-  std::size_t place = 0;
+  std::size_t to_pass = 0;
   for (const LidarPoint& point : scan.points) {
-    if (!IsReturn(point) || place++ % step != 0) continue;
+    if (!IsReturn(point) || to_pass-- > 0) continue;
+    to_pass = step - 1;
     std::uint32_t bits[3];
     std::memcpy(bits, point.xyz_m.data(), sizeof(bits));
     for (const std::uint32_t word : bits)

@@ -25,7 +25,7 @@ class SeenFrom {
     const float length = to_sensor.norm();
     if (!(length > 0.0F) || !std::isfinite(length)) return;
     for (int axis = 0; axis < 3; ++axis) {
-      steps_[axis] = static_cast<int>(std::lround(kSteps * to_sensor[axis] / length));
+      steps_[axis] = Rounded(kSteps * to_sensor[axis] / length);
     }
   }
   /// That which a point has with it.
@@ -48,6 +48,10 @@ class SeenFrom {
   static constexpr float kSteps = 7.0F;
   static constexpr std::uint32_t kMask = 15;
 
+  /// As lround, without a call.
+  static int Rounded(float number) {
+    return static_cast<int>(static_cast<double>(number) + std::copysign(0.5, number));
+  }
   static std::uint32_t ToBits(float number) {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &number, sizeof(bits));

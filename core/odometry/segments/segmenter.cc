@@ -65,12 +65,12 @@ bool Segmenter::Accept(const LidarPoint& point, const SE3& T_body_lidar, Eigen::
     ++counts_.not_finite;
     return false;
   }
-  const double range = point.xyz_m.cast<double>().norm();
-  if (range < options_.min_range_m) {
+  const double squared_range_m2 = point.xyz_m.cast<double>().squaredNorm();
+  if (squared_range_m2 < options_.min_range_m * options_.min_range_m) {
     ++counts_.too_near;
     return false;
   }
-  if (range > options_.max_range_m) {
+  if (squared_range_m2 > options_.max_range_m * options_.max_range_m) {
     ++counts_.too_far;
     return false;
   }
@@ -121,6 +121,7 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
 
   const std::int64_t first_open_ns = FirstOpen_ns();
   std::int64_t newest_ns = kUnseen;
+  Slot* slot = nullptr;
   for (const LidarPoint& point : scan.points) {
     const std::int64_t t_ns = point.t_ns + clock_ns;
     if (t_ns < first_open_ns) {
@@ -134,16 +135,17 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
     newest_ns = std::max(newest_ns, t_ns);
     Eigen::Vector3f p_body;
     if (!Accept(point, T_body_lidar, &p_body)) continue;
-    Slot& slot = SlotAt(t_ns);
-    const double alpha = static_cast<double>(t_ns - slot.begin_ns) /
-                         static_cast<double>(slot.end_ns - slot.begin_ns);
-    slot.points.push_back({p_body, static_cast<float>(alpha), static_cast<std::uint16_t>(lidar)});
+    // Mostly the slot of the point before.
+    if (slot == nullptr || !slot->Holds(t_ns)) slot = &SlotAt(t_ns);
+    const double alpha = static_cast<double>(t_ns - slot->begin_ns) /
+                         static_cast<double>(slot->end_ns - slot->begin_ns);
+    slot->points.push_back({p_body, static_cast<float>(alpha), static_cast<std::uint16_t>(lidar)});
   }
   newest_ns_[lidar] = std::max(newest_ns_[lidar], newest_ns);
-  for (Slot& slot : slots_) {
-    if (slot.end_ns <= first_ns) continue;
-    slot.clocks_s.resize(newest_ns_.size());
-    slot.clocks_s[lidar] = ClockOf_s(lidar);
+  for (Slot& reached : slots_) {
+    if (reached.end_ns <= first_ns) continue;
+    reached.clocks_s.resize(newest_ns_.size());
+    reached.clocks_s[lidar] = ClockOf_s(lidar);
   }
 }
 

@@ -93,6 +93,8 @@ class Segmenter {
     bool is_gap;
     std::vector<SegmentPoint> points;
     std::vector<double> clocks_s;  ///< By which the points of each LiDAR were corrected.
+
+    bool Holds(std::int64_t t_ns) const { return t_ns >= begin_ns && t_ns < end_ns; }
   };
   double ClockOf_s(std::size_t lidar) const;
   void AddContinuous(const LidarScan& scan);
