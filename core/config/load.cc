@@ -29,6 +29,7 @@ class Loader {
   /// Sets one option, or complains about its key or value at the place of `key_node`.
   void Set(const std::string& key, const YAML::Node& key_node, const YAML::Node& value) {
     const Option* option = Find(key);
+    if (option == nullptr && IsSection(key)) FailSection(key, key_node);
     if (option == nullptr && unknown_ != nullptr) return unknown_->push_back(key);
     if (option == nullptr) FailUnknown(key, key_node, value.IsMap());
     if (!seen_.insert(key).second) Fail(key_node, "'" + key + "' is set twice");
@@ -50,7 +51,7 @@ class Loader {
       } else if (entry.second.IsMap()) {
         Walk(key + ".", entry.second);
       } else if (!entry.second.IsNull()) {  // A section may be empty.
-        Fail(entry.second, "'" + key + "' is a section, which holds the keys " + KeysOf(key));
+        FailSection(key, entry.second);
       }
     }
   }
@@ -84,6 +85,10 @@ class Loader {
       text += (text.empty() ? "" : ", ") + option.key;
     }
     return text;
+  }
+
+  [[noreturn]] void FailSection(const std::string& key, const YAML::Node& node) const {
+    Fail(node, "'" + key + "' is a section, which holds the keys " + KeysOf(key));
   }
 
   /// What holds a map is meant as a section.

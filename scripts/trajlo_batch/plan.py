@@ -111,6 +111,11 @@ def differences(old, new, any_version):
                         if key not in ignored and old.get(key) != new.get(key)))
 
 
+def run_names(suite):
+    """configuration/sequence of all runs, whether their data are there or not."""
+    return [f"{configuration.name}/{sequence.name}" for configuration, sequence in suite.pairs]
+
+
 def make_plan(suite, places, any_version=False, retry=False):
     """Looks at the suite and at what is there; writes nothing. Throws SuiteError."""
     names = ["trajlo_run", "trajlo_evaluate"]

@@ -190,6 +190,17 @@ class BatchTest(FolderTest):
         first = self.output / "plain" / "hall_os1_16-seed1" / "result" / "trajectory.tum"
         self.assertEqual(again.read_bytes(), first.read_bytes())
 
+    def test_a_pattern_that_matches_no_run_is_an_error_also_without_data(self):
+        kitti = (ROOT / "config" / "suites" / "kitti.yaml").read_text()
+        nothing = ("--data", self.folder / "nothing")
+        for more in ((), ("--list",)):
+            done = self.batch(kitti, *nothing, "--only", "trjalo/*", *more)
+            self.assertEqual(done.returncode, 1, done.log)
+            self.assertIn("trjalo/* matches no run", done.stderr)
+        done = self.batch(kitti, *nothing, "--only", "*/03")
+        self.assertEqual(done.returncode, 2, done.log)
+        self.assertIn("No data", done.stderr)
+
     def test_two_batches_cannot_work_in_one_folder(self):
         begun = self.runs_that_never_end()
         process = self.start(SUITE)

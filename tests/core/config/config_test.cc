@@ -66,6 +66,12 @@ TEST(Config, UnknownKeyWithoutANearOneListsItsSection) {
   EXPECT_THAT(LoadingError("xyzzyplugh: 3"), HasSubstr("--show_config"));
 }
 
+TEST(Config, ASectionTakesNoValue) {
+  EXPECT_THAT(LoadingError("window: 3"), HasSubstr("is a section, which holds the keys window.seg"));
+  // Not the expert section of the same name.
+  EXPECT_THAT(OverrideError("window=3"), HasSubstr("is a section, which holds the keys window.seg"));
+}
+
 TEST(Config, RepeatedKeyIsAnError) {
   EXPECT_THAT(LoadingError("window: {segments: 3,\n segments: 4}"),
               AllOf(StartsWith("my.yaml:2:"), HasSubstr("set twice")));
