@@ -67,9 +67,11 @@ TEST(Config, UnknownKeyWithoutANearOneListsItsSection) {
 }
 
 TEST(Config, ASectionTakesNoValue) {
-  EXPECT_THAT(LoadingError("window: 3"), HasSubstr("is a section, which holds the keys window.seg"));
+  EXPECT_THAT(LoadingError("window: 3"),
+              HasSubstr("is a section, which holds the keys window.seg"));
   // Not the expert section of the same name.
-  EXPECT_THAT(OverrideError("window=3"), HasSubstr("is a section, which holds the keys window.seg"));
+  EXPECT_THAT(OverrideError("window=3"),
+              HasSubstr("is a section, which holds the keys window.seg"));
 }
 
 TEST(Config, RepeatedKeyIsAnError) {
