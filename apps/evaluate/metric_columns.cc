@@ -65,7 +65,7 @@ int Decimals(const MetricColumn& column, const EvaluationReport& report) {
   for (const EstimateReport& estimate : report.estimates) {
     if (!estimate.evaluation) continue;
     const double value = column.value(*estimate.evaluation).value_or(0.0);
-    if (!(value > std::pow(10.0, -column.decimals - kMore))) continue;
+    if (!std::isfinite(value) || value <= std::pow(10.0, -column.decimals - kMore)) continue;
     decimals = std::max(decimals, kDigits - 1 - static_cast<int>(std::floor(std::log10(value))));
   }
   return std::min(decimals, column.decimals + kMore);
