@@ -27,7 +27,7 @@ class Run:
 
     @property
     def folder(self):
-        return f"{self.configuration.name}/{self.sequence.name}"
+        return run_name(self.configuration, self.sequence)
 
 
 @dataclasses.dataclass
@@ -111,9 +111,14 @@ def differences(old, new, any_version):
                         if key not in ignored and old.get(key) != new.get(key)))
 
 
+def run_name(configuration, sequence):
+    """What --only matches, and the run's folder."""
+    return f"{configuration.name}/{sequence.name}"
+
+
 def run_names(suite):
-    """configuration/sequence of all runs, whether their data are there or not."""
-    return [f"{configuration.name}/{sequence.name}" for configuration, sequence in suite.pairs]
+    """Those of all runs, whether their data are there or not."""
+    return [run_name(configuration, sequence) for configuration, sequence in suite.pairs]
 
 
 def make_plan(suite, places, any_version=False, retry=False):

@@ -39,12 +39,12 @@ struct PlaneFitOptions {
   /// asks for it, in l1: farther off stands something else, of which the coarser levels have no
   /// points (a post in front of a wall).
   static constexpr double kMaxWideDistanceInWidths = 0.3;
-  /// A plane that is thicker by this than noise makes it weighs half as much as a thin one.
+  /// A plane that is this much thicker than noise makes it weighs half as much as a thin one.
   static constexpr double kHalfWeightThickness_m = 0.05;
-  /// Noise makes planes so thick, in its standard deviations: what it adds to predicted residuals,
-  /// and chance. It is of all planes alike, and tells nothing against one of them. Where the lasers
-  /// of a scanner are off, each by its own error, a plane that several of them see is thicker than
-  /// one that a single one draws, and tells more.
+  /// Noise makes planes this thick, in its standard deviations: what it adds to predicted
+  /// residuals, and chance. It is the same for all planes, and tells nothing against one of them.
+  /// Where the lasers of a scanner are off, each by its own error, a plane that several of them see
+  /// is thicker than one that a single one draws, and tells more.
   static constexpr double kThicknessOfNoise = 2.0;
 
   template <typename Describer>
