@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "core/io/recording/open_recording.h"
-#include "core/odometry/stopwatch.h"
+#include "core/timing/stopwatch.h"
 #include "core/report/progress_bar.h"
 #include "core/report/run_summary.h"
 #include "core/scans/nanoseconds.h"

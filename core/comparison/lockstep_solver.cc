@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/comparison/forms/ceres_form_solver.h"
-#include "core/odometry/stopwatch.h"
+#include "core/timing/stopwatch.h"
 
 namespace trajlo {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/odometry/health/belief.h"
 #include "core/odometry/parallel/side_task.h"
-#include "core/odometry/stopwatch.h"
+#include "core/timing/stopwatch.h"
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/point_scatter.h"

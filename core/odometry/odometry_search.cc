@@ -12,7 +12,6 @@
 #include "core/odometry/segments/join_segments.h"
 #include "core/odometry/start/initial_motion.h"
 #include "core/odometry/start/relocalization.h"
-#include "core/odometry/stopwatch.h"
 #include "core/odometry/weights/innovation.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/push_segment.h"
@@ -152,7 +151,8 @@ void Odometry::NoteSupport() {
 void Odometry::BeginSearch() {
   search_.emplace(LastSeen{support_.supported_until_ns(), window_.EndNs(), window_.EndPose(),
                            window_.EndVelocity(), motion_prior_.density(), TurnAxis()},
-                  attitude_, options_);
+                  attitude_, options_.segmenter.interval_s, options_.initialization, options_.map,
+                  options_.registration);
 }
 
 /// Looks for the newest points in the map.

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/odometry/parallel/side_task.h"
-#include "core/odometry/stopwatch.h"
+#include "core/timing/stopwatch.h"
 
 namespace trajlo {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/odometry/stopwatch.h"
+#include "core/timing/stopwatch.h"
 
 namespace trajlo {
 

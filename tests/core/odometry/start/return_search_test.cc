@@ -30,7 +30,8 @@ SegmentCloud Gap(std::int64_t begin_ns) {
 
 class Searching {
  public:
-  explicit Searching(double density_m2_s3 = 0.5) : search_(Last(density_m2_s3), {}, options_) {}
+  explicit Searching(double density_m2_s3 = 0.5)
+      : search_(Last(density_m2_s3), attitude_, 0.03, {}, {}, {}) {}
 
   void Add(int segments) {
     for (int i = 0; i < segments; ++i) {
@@ -55,7 +56,7 @@ class Searching {
     return last;
   }
 
-  OdometryOptions options_;
+  MeanAttitude attitude_;
   ReturnSearch search_;
   std::int64_t t_ns_ = 0;
 };
