@@ -4,10 +4,10 @@
 #include <cstdio>
 
 #include "core/io/recording/open_recording.h"
-#include "core/timing/stopwatch.h"
 #include "core/report/progress_bar.h"
 #include "core/report/run_summary.h"
 #include "core/scans/nanoseconds.h"
+#include "core/timing/stopwatch.h"
 
 namespace trajlo {
 

@@ -7,11 +7,11 @@
 
 #include "core/odometry/health/belief.h"
 #include "core/odometry/parallel/side_task.h"
-#include "core/timing/stopwatch.h"
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/point_scatter.h"
 #include "core/odometry/window/push_segment.h"
+#include "core/timing/stopwatch.h"
 
 namespace trajlo {
 namespace {

@@ -3,10 +3,10 @@
 
 #include "core/odometry/health/agreement.h"
 #include "core/odometry/health/support.h"
-#include "core/timing/stopwatch.h"
 #include "core/odometry/weights/fit_kernel.h"
 #include "core/odometry/weights/graduated_kernel.h"
 #include "core/odometry/window/associate_window.h"
+#include "core/timing/stopwatch.h"
 
 namespace trajlo {
 

@@ -10,6 +10,7 @@ namespace trajlo {
 namespace {
 
 constexpr std::int64_t kSegment_ns = 30'000'000;
+constexpr double kSegment_s = 0.03;
 
 SegmentCloud Segment(std::int64_t begin_ns, bool has_points = true) {
   SegmentCloud segment;
@@ -31,7 +32,7 @@ SegmentCloud Gap(std::int64_t begin_ns) {
 class Searching {
  public:
   explicit Searching(double density_m2_s3 = 0.5)
-      : search_(Last(density_m2_s3), attitude_, 0.03, {}, {}, {}) {}
+      : search_(Last(density_m2_s3), attitude_, kSegment_s, {}, {}, {}) {}
 
   void Add(int segments) {
     for (int i = 0; i < segments; ++i) {
