@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/odometry.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "core/odometry/health/belief.h"
-#include "core/odometry/parallel/side_task.h"
-#include "core/odometry/window/covariance.h"
-#include "core/odometry/window/enter_map.h"
-#include "core/odometry/window/point_scatter.h"
-#include "core/odometry/window/push_segment.h"
-#include "core/timing/stopwatch.h"
+#include "core/odometry/segments/join_segments.h"
+#include "core/odometry/start/initial_motion.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
-namespace {
-
-/// The window keeps so few segments where fewer of the newest points than this share have a plane.
-constexpr int kShortWindow = 2;
-constexpr double kSeesMap = 0.5;
-
-}  // namespace
 
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
     : options_(options),
@@ -29,12 +19,11 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
                 [this](SegmentCloud segment) {
                   rig_.Apply(&segment);
                   Take(std::move(segment));
-                  poses_.HandOn();
+                  TellAhead();
+                  tracker_.poses().HandOn();
                 }),
       rig_(options.segmenter.learn_rig),
-      map_(options.map),
-      motion_prior_(options.motion_prior),
-      estimator_(options.registration, options.solver, make_solver, &threads_) {}
+      tracker_(options, make_solver, &threads_, &rig_) {}
 
 void Odometry::AddScan(const LidarScan& scan) { segments_.Add(scan); }
 
@@ -43,26 +32,33 @@ void Odometry::Finish() {
   if (beginning_) Start();
   if (search_ && search_->HasPoints()) Search(true);
   if (beginning_) Start();
-  SettleWindow(std::numeric_limits<std::int64_t>::max());
-  SettleStretch();
-  poses_.HandOn();
+  tracker_.EndWindow(std::numeric_limits<std::int64_t>::max());
+  tracker_.poses().Settle();
+  TellAhead();
+  tracker_.poses().HandOn();
 }
 
+/// What those ahead of the estimator learn from it.
+void Odometry::TellAhead() {
+  segments_.CorrectClocks(rig_.Clocks_s());
+  if (!trajectory().empty()) segments_.NoteFirstPose(trajectory().poses().front().t_ns);
+}
+
+/// A segment, or a gap, goes where it is of use now: to a map that begins, to the window, or to the
+/// search for the body.
 void Odometry::Take(SegmentCloud cloud) {
   if (beginning_) {
     TakeFirst(std::move(cloud));
     return;
   }
-  if (cloud.is_gap && !support_.was_supported() && !search_) {
+  if (cloud.is_gap && !search_ && !tracker_.was_held()) {
     if (!trajectory().empty()) {
-      SettleWindow(cloud.end_ns);
-      window_ = MakeWindow(cloud.end_ns, window_.T_world_begin);
-      window_.begin_flags = kFlagGap;
+      tracker_.BeginBehindPause(cloud.end_ns);
       return;
     }
-    Forget(cloud.end_ns);
+    tracker_.ForgetMap(cloud.end_ns);
   }
-  if ((cloud.is_gap || !HasMap()) && !search_) BeginSearch();
+  if ((cloud.is_gap || !tracker_.HasMap()) && !search_) BeginSearch();
   if (!search_) {
     Step(std::move(cloud));
     return;
@@ -71,150 +67,110 @@ void Odometry::Take(SegmentCloud cloud) {
   if (search_->IsDue()) Search(false);
 }
 
-/// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.
+/// A map is to begin, with what has been seen and perhaps more.
+void Odometry::Begin(Beginning beginning) {
+  search_.reset();
+  beginning_ = std::move(beginning);
+  SegmentCloud& first = beginning_->segments.front();
+  // Nothing was measured between the scan before it and its own time.
+  if (first.IsInstant()) first.begin_ns = first.end_ns;
+  if (beginning_->IsWhole(options_.initialization)) Start();
+}
+
+/// One more segment of the first interval. What a gap cuts short tells little: a sweep that was
+/// seen once says nothing of the motion, and is no place that could be found again. The first
+/// interval begins behind the gap.
+void Odometry::TakeFirst(SegmentCloud cloud) {
+  if (cloud.is_gap) {
+    beginning_->segments.clear();
+    return;
+  }
+  beginning_->segments.push_back(std::move(cloud));
+  if (beginning_->IsWhole(options_.initialization)) Start();
+}
+
+/// The motion during the first interval, then a map, and a window that begins where that ends. A
+/// constant twist takes the whole interval to the map, if it explains it. Else the map is of the
+/// first segment alone: points of a wrong motion would blur it, and what follows would agree with
+/// the blur. Where the recording ends within the interval, the motion must be shown, and is in
+/// doubt all the same: no window has confirmed it.
+void Odometry::Start() {
+  Beginning beginning = *std::exchange(beginning_, std::nullopt);
+  const bool is_cut_short = !beginning.IsWhole(options_.initialization);
+  std::vector<SegmentCloud>& segments = beginning.segments;
+  if (segments.empty()) return;
+  rig_.Begin(&segments);
+  const SegmentCloud interval = JoinSegments(segments);
+  FirstMotion motion = MotionOfFirstInterval(interval, options_.initialization, options_.map,
+                                             options_.registration, &threads_);
+  if (is_cut_short) {
+    if (!motion.is_shown) motion.velocity.setZero();
+    beginning.flags |= kFlagNoPoints;
+  }
+  const bool is_whole = motion.is_steady && !segments.front().IsInstant();
+  tracker_.BeginMap(is_whole ? interval : segments.front(), beginning.T_world_begin,
+                    motion.velocity, beginning.flags);
+  if (is_whole) return;
+  for (std::size_t k = 1; k < segments.size(); ++k) Take(std::move(segments[k]));
+}
+
+/// One step of the method, in Tracker::Step; or the body is lost from view, and looked for.
 void Odometry::Step(SegmentCloud cloud) {
-  PushSegment(std::move(cloud), options_.window.deskewing, &window_);
-  motion_prior_.Apply(&window_);
-  window_.segments.back().bend_m2 = motion_prior_.Bend_m2(window_.segments.back().cloud);
-  if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
-  const std::vector<SE3> predicted = window_.Poses();
-
-  WindowStatistics statistics;
-  statistics.restless = RestlessStep(window_.segments.back().cloud);
-  estimator_.AssociateAndSolve(map_, &window_, &statistics);
-  if (doubt_.IsContradicted(statistics.agreement)) LookAgain(predicted, &statistics);
-  // Before the points ever held the body, there is no prediction to trust.
-  if (support_.was_supported()) {
-    estimator_.LeaveOutUnsupported(predicted, &window_, &statistics);
-  }
-  statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
-  if (IsBlind()) {
-    TakeBackAndSearch(predicted);
+  std::optional<WindowStatistics> statistics = tracker_.Step(&cloud);
+  if (!statistics) {
+    BeginSearch();
+    Take(std::move(cloud));
     return;
   }
-  BelieveOrRevert(predicted, statistics);
-  LearnAndJudge(predicted.back(), &statistics);
-  Watch(&statistics);
-  if (doubt_.IsSure() && !hindsight_.is_empty()) LookBack(&statistics);
-  const int to_keep = SegmentsToKeep();
-  while (window_.size() > to_keep) Leave(&statistics);
-  Report(&statistics);
-  LookAround(statistics.agreement);
-}
-
-void Odometry::BelieveOrRevert(const std::vector<SE3>& predicted,
-                               const WindowStatistics& statistics) {
-  window_.is_believed = IsBelievable(statistics, window_);
-  if (!window_.is_believed) {
-    Revert(predicted, &window_);
-    return;
-  }
-  NoteSupport();
-  // Solved poses show how noisy the points are: a bad prediction is no noise.
-  map_.SetScatter(std::min(PointScatter(window_), options_.registration.kernel_m));
-}
-
-/// Side by side: neither needs the other.
-void Odometry::LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics) {
-  SideTask learning(&threads_);
-  if (window_.is_believed) {
-    learning.Start([&] {
-      motion_prior_.Learn(MeasureInnovation(window_, T_world_predicted),
-                          window_.segments.back().Duration_s());
-    });
-  }
-  Describe(window_, statistics);
-  Judge(options_.registration, &window_, statistics);
-  learning.Wait();
-}
-
-/// Judges the window by those before it as well.
-void Odometry::Watch(WindowStatistics* statistics) {
-  if (inlier_watch_.HasFew(*statistics)) statistics->flags |= kFlagFewInliers;
-  // These take time to show: they hold for all poses that are still here.
-  const unsigned late = statistics->flags & (kFlagFewInliers | kFlagJump);
-  poses_.FlagFirst(late);
-  window_.begin_flags |= late;
-  for (Segment& segment : window_.segments) segment.flags |= late;
-  doubt_.Update(window_, *statistics, motion_prior_.density());
-  statistics->flags |= doubt_.flags();
-  window_.segments.back().flags = statistics->flags;
-}
-
-/// What no plane agrees with may be a hand before the LiDAR.
-bool Odometry::MayEnterMap(const Segment& segment) const {
-  return !IsUnsupported(window_, segment) && doubt_.MayEnterMap(window_, segment);
-}
-
-/// Points enter the map when they leave the window. In a fast turn that comes too late: the newest
-/// ones see what only the window has seen. Then the window is shorter, and the map grows with them.
-int Odometry::SegmentsToKeep() const {
-  const Segment& newest = window_.segments.back();
-  const auto all = static_cast<double>(newest.cloud.registration_points.size());
-  const bool sees_map = static_cast<double>(newest.points.size()) >= kSeesMap * all;
-  return sees_map ? options_.window.segments - 1
-                  : std::min(kShortWindow, options_.window.segments - 1);
-}
-
-/// The oldest segment leaves: its first pose is settled, its points enter the map.
-void Odometry::Leave(WindowStatistics* statistics) {
-  Stopwatch watch;
-  SettleFront();
-  rig_.Learn(window_);
-  segments_.CorrectClocks(rig_.Clocks_s());
-  const SE3 T_begin = window_.T_world_begin;
-  // The first points agree with nothing.
-  const bool is_of_the_world = !support_.was_supported() || MayEnterMap(window_.segments.front());
-  Segment oldest = Marginalize(options_.marginalization, &window_);
-  statistics->milliseconds_marginalize += watch.Milliseconds();
-  if (is_of_the_world) {
-    EnterMap(oldest.cloud, T_begin, oldest.T_world_end, &threads_, &map_);
-  }
-  map_.RemoveFar(oldest.T_world_end.t);
-  statistics->milliseconds_map += watch.Milliseconds();
-  if (!hindsight_.is_empty()) hindsight_.AddSegment(std::move(oldest));
-}
-
-void Odometry::Report(WindowStatistics* statistics) {
   statistics->index = windows_++;
   statistics->milliseconds_segment = segments_.TakeMilliseconds();
-  statistics->translation_density_m2_s3 = motion_prior_.density()[0];
-  statistics->rotation_density_rad2_s3 = motion_prior_.density()[3];
-  if (const auto lost_since_ns = loss_watch_.Update(*statistics)) {
-    statistics->flags |= kFlagLost;
-    if (!lost_at_ns_) lost_at_ns_ = lost_since_ns;
-  }
   if (on_window_) on_window_(*statistics);
 }
 
-/// All poses of the window that lie before `before_ns` are final.
-void Odometry::SettleWindow(std::int64_t before_ns) {
-  WindowStatistics unused;
-  while (window_.size() > 0) Leave(&unused);
-  if (window_.begin_ns < before_ns) SettleFront();
+/// From the end of the window on, nobody knows where the body is.
+void Odometry::BeginSearch() {
+  search_.emplace(tracker_.WhereLastSeen(), tracker_.attitude(), options_.segmenter.interval_s,
+                  options_.initialization, options_.map, options_.registration);
 }
 
-/// The pose at the front of the window leaves it.
-void Odometry::SettleFront() {
-  const Matrix6d covariance = poses_.has_callback() ? PoseCovariance(AssembleWindow(window_), 0)
-                                                    : Matrix6d(Matrix6d::Zero());
-  const bool is_lost = lost_at_ns_ && window_.begin_ns >= *lost_at_ns_;
-  const unsigned flags = window_.begin_flags | (is_lost ? kFlagLost : 0U);
-  const LeavingPose leaving = {{window_.begin_ns, window_.T_world_begin, flags}, covariance};
-  attitude_.Add(window_.T_world_begin.q);
-  if (MustWait()) {
-    Wait(leaving);
-  } else {
-    Settle(leaving);
+/// Looks for the newest points in the map.
+void Odometry::Search(bool is_last) {
+  const ReturnSweep sweep = search_->Look(tracker_.map(), &threads_);
+  const LastSeen& last = search_->last();
+  const double unseen_s = Seconds(sweep.cloud.begin_ns - last.supported_until_ns);
+  if (sweep.T_world_begin && IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s)) {
+    Resume(sweep);
+  } else if (!tracker_.was_held()) {
+    BeginAgain(sweep);
+  } else if (is_last || search_->IsHopeless()) {
+    GetLost(sweep);
   }
 }
 
-/// The trajectory begins where the map does: what was before it, nothing tells.
-void Odometry::Settle(const LeavingPose& leaving) {
-  const bool is_first = trajectory().empty();
-  if (is_first && !HasMap()) return;
-  poses_.Append({leaving.pose, motion_prior_.covariance_scale() * leaving.covariance});
-  if (is_first) segments_.NoteFirstPose(trajectory().poses().front().t_ns);
+/// The place is found: a new window begins there, and takes what has come since.
+void Odometry::Resume(const ReturnSweep& sweep) {
+  tracker_.Resume(sweep);
+  std::vector<SegmentCloud> segments = search_->TakeSegments();
+  search_.reset();
+  // A scan of one time is in the map already.
+  if (sweep.cloud.IsInstant()) return;
+  for (SegmentCloud& segment : segments) Take(std::move(segment));
+}
+
+/// There was nothing yet that could be found.
+void Odometry::BeginAgain(const ReturnSweep& sweep) {
+  tracker_.EndWindow(sweep.cloud.begin_ns);
+  tracker_.poses().Settle();
+  const unsigned flags = trajectory().empty() ? 0U : kFlagGap;
+  Begin({search_->TakeSegments(), tracker_.T_world_begin(), flags});
+}
+
+/// The place is not found. What comes now is a recording by itself, placed where the body would be
+/// if it had gone on as it did.
+void Odometry::GetLost(const ReturnSweep& sweep) {
+  tracker_.Lose(sweep.cloud.begin_ns);
+  const SE3 T_begin = search_->Predict(sweep.cloud.begin_ns);
+  Begin({search_->TakeSegments(), T_begin, kFlagGap | kFlagLost});
 }
 
 }  // namespace trajlo

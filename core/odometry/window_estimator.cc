@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window_estimator.h"
 
+#include <utility>
+
 #include "core/odometry/health/agreement.h"
 #include "core/odometry/health/support.h"
 #include "core/odometry/weights/fit_kernel.h"
 #include "core/odometry/weights/graduated_kernel.h"
+#include "core/odometry/weights/innovation.h"
 #include "core/odometry/window/associate_window.h"
 #include "core/timing/stopwatch.h"
 
@@ -28,6 +31,33 @@ void WindowEstimator::AssociateAndSolve(const MapPyramid& map, Window* window,
     s->milliseconds_solve += watch.Milliseconds();
   }
   s->agreement = AgreementOf(*window, *newest).worst;
+}
+
+void WindowEstimator::LookAgain(const MapPyramid& map, const std::vector<SE3>& predicted,
+                                MotionPrior* motion_prior, Window* window, WindowStatistics* s) {
+  Window first = *window;
+  window->BeginAgainAt(predicted);
+  Segment& newest = window->segments.back();
+  newest.registration = {};
+  newest.association = {};
+  motion_prior->UntieRotation(window);
+  WindowStatistics again;
+  again.restless = s->restless;
+  // Both looks take time, whichever is kept.
+  again.milliseconds_associate = s->milliseconds_associate;
+  again.milliseconds_solve = s->milliseconds_solve;
+  AssociateAndSolve(map, window, &again);
+  const bool is_better = again.is_finite && again.agreement > s->agreement;
+  if (is_better && !IsUnsupported(*window, newest)) {
+    motion_prior->Apply(window);
+    motion_prior->Follow(MeasureInnovation(*window, predicted.back()));
+    motion_prior->Apply(window);
+    *s = again;
+  } else {
+    *window = std::move(first);
+    s->milliseconds_associate = again.milliseconds_associate;
+    s->milliseconds_solve = again.milliseconds_solve;
+  }
 }
 
 void WindowEstimator::LeaveOutUnsupported(const std::vector<SE3>& predicted, Window* window,

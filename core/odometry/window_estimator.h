@@ -8,6 +8,7 @@
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/solvers/window_solver.h"
+#include "core/odometry/weights/motion_prior.h"
 #include "core/odometry/weights/registration_options.h"
 #include "core/odometry/window/window.h"
 
@@ -27,6 +28,14 @@ class WindowEstimator {
   /// From the window's poses on: which planes of the map the points belong to, and the poses that
   /// bring them there.
   void AssociateAndSolve(const MapPyramid& map, Window* window, WindowStatistics* statistics);
+
+  /// The points contradict the map where the motion prior led them: the body began to turn as the
+  /// prior did not foresee. (By some degrees within a segment; no body is flung so far aside.) They
+  /// look again from the prediction, while its attitude may be anything near. If they agree better
+  /// then, and hold it, the prior follows; else all stays as it was. (A hand before the LiDAR has
+  /// few points, which agree with whatever is near.)
+  void LookAgain(const MapPyramid& map, const std::vector<SE3>& predicted,
+                 MotionPrior* motion_prior, Window* window, WindowStatistics* statistics);
 
   /// Solves again without the points that do not hold their segments, from the prediction: what is
   /// left agrees with it. Does nothing if all segments are held.

@@ -194,7 +194,7 @@ void ScanSequencer::Hand(const LidarScan& scan, std::int64_t arrival) {
 }
 
 void ScanSequencer::NoteFirstPose(std::int64_t t_ns) {
-  has_pose_ = true;
+  if (std::exchange(has_pose_, true)) return;
   std::int64_t first = handed_on_arrival_;
   for (const std::vector<Sweep>& sweeps : std::exchange(before_pose_, {})) {
     const auto behind = std::find_if(sweeps.begin(), sweeps.end(),

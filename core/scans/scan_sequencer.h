@@ -40,6 +40,7 @@ class ScanSequencer {
     report_.until_last_point = std::max(report_.until_last_point, handed_on_arrival_ + 1);
   }
   /// The trajectory begins at this time: what was seen before did not tell how the LiDAR moved.
+  /// The first call counts.
   void NoteFirstPose(std::int64_t t_ns);
 
   const TimeReport& report() const { return report_; }

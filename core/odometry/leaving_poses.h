@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "core/odometry/trajectory/final_poses.h"
+#include "core/odometry/window/hindsight.h"
+#include "core/odometry/window/marginalize.h"
+#include "core/odometry/window/window.h"
+
+namespace trajlo {
+
+/// The control poses that leave the window. They are final at once, unless it is in doubt where the
+/// body is: then they wait until that is known, at most 5 s, and are estimated once more.
+class LeavingPoses {
+ public:
+  /// Estimates a window from its poses on, as any other; nothing if that fails.
+  using Estimate = std::function<std::optional<Window>(Window)>;
+
+  explicit LeavingPoses(const MarginalizationOptions& marginalization)
+      : marginalization_(marginalization) {}
+
+  void OnPose(FinalPoses::Callback callback) { final_.OnPose(std::move(callback)); }
+  /// Whether anybody asks for covariances.
+  bool has_callback() const { return final_.has_callback(); }
+  /// Calls back for all poses that became final since the last time. The callback may throw.
+  void HandOn() { final_.HandOn(); }
+
+  /// See FinalPoses.
+  void Begin(const ControlPose& first) { final_.Begin(first); }
+  void FlagFirst(unsigned flags) { final_.FlagFirst(flags); }
+  void ForgetFirst() { final_.ForgetFirst(); }
+  /// A pose that never was in a window.
+  void Append(const ControlPose& pose) { final_.Append({pose}); }
+
+  /// The first pose of `window` leaves.
+  void Leave(const Window& window, const Matrix6d& covariance, bool is_in_doubt);
+  /// The segment that left with it, which is needed if the pose waits.
+  void AddSegment(Segment segment);
+  /// In its place, where the window came to an end: the motion until `end_ns` was not measured.
+  void AddGap(std::int64_t end_ns);
+
+  /// The doubt is over in `newest`, the present window: what waits is estimated with it, and final.
+  void LookBack(const Window& newest, const Estimate& estimate);
+  /// What waits is final as it is.
+  void Settle();
+
+  /// From this time on, poses are flagged as lost. The first call counts.
+  void Lose(std::int64_t t_ns) {
+    if (!lost_at_ns_) lost_at_ns_ = t_ns;
+  }
+  const std::optional<std::int64_t>& lost_at_ns() const { return lost_at_ns_; }
+
+  const Trajectory& trajectory() const { return final_.trajectory(); }
+
+ private:
+  const MarginalizationOptions marginalization_;
+  FinalPoses final_;
+  Hindsight waiting_;
+  std::optional<std::int64_t> lost_at_ns_;
+};
+
+}  // namespace trajlo

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/tracker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/odometry/health/belief.h"
+#include "core/odometry/parallel/side_task.h"
+#include "core/odometry/weights/innovation.h"
+#include "core/odometry/window/covariance.h"
+#include "core/odometry/window/enter_map.h"
+#include "core/odometry/window/point_scatter.h"
+#include "core/odometry/window/push_segment.h"
+#include "core/scans/nanoseconds.h"
+#include "core/timing/stopwatch.h"
+
+namespace trajlo {
+namespace {
+
+/// Fewer points make no map: the recording begins again with what comes next.
+constexpr std::size_t kFewestToBegin = 20;
+/// The window keeps so few segments where fewer of the newest points than this share have a plane.
+constexpr int kShortWindow = 2;
+constexpr double kSeesMap = 0.5;
+
+/// Points enter the map when they leave the window. In a fast turn that comes too late: the newest
+/// ones see what only the window has seen. Then the window is shorter, and the map grows with them.
+int SegmentsToKeep(const Segment& newest, int most) {
+  const auto all = static_cast<double>(newest.cloud.registration_points.size());
+  const bool sees_map = static_cast<double>(newest.points.size()) >= kSeesMap * all;
+  return sees_map ? most - 1 : std::min(kShortWindow, most - 1);
+}
+
+}  // namespace
+
+Tracker::Tracker(const OdometryOptions& options, const WindowSolverFactory& make_solver,
+                 ThreadPool* threads, RigCalibration* rig)
+    : options_(options),
+      threads_(threads),
+      rig_(rig),
+      map_(options.map),
+      motion_prior_(options.motion_prior),
+      estimator_(options.registration, options.solver, make_solver, threads),
+      window_search_(options.initialization, options.map, options.registration),
+      poses_(options.marginalization) {}
+
+void Tracker::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& velocity,
+                       unsigned flags) {
+  const double duration_s = cloud.Duration_s();
+  const SE3 T_end = T_begin * se3::Exp(velocity * duration_s);
+  EnterMap(cloud, T_begin, T_end, threads_, &map_);
+  const ControlPose first = {cloud.begin_ns, T_begin, flags};
+  const bool begins_trajectory = poses_.trajectory().empty() && HasMap();
+  if (duration_s > 0.0 && begins_trajectory) {
+    poses_.Begin(first);
+  } else if (duration_s > 0.0 && !poses_.trajectory().empty()) {
+    poses_.Append(first);
+  }
+  window_ = MakeWindow(cloud.end_ns, T_end);
+  window_.begin_flags = flags;
+  window_.begin_velocity = velocity;
+  support_.Begin(cloud.end_ns);
+}
+
+bool Tracker::HasMap() const { return was_held() || map_.finest().size() >= kFewestToBegin; }
+
+std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
+  PushSegment(std::move(*cloud), options_.window.deskewing, &window_);
+  motion_prior_.Apply(&window_);
+  window_.segments.back().bend_m2 = motion_prior_.Bend_m2(window_.segments.back().cloud);
+  if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
+  const std::vector<SE3> predicted = window_.Poses();
+
+  WindowStatistics statistics;
+  statistics.restless = RestlessStep(window_.segments.back().cloud);
+  estimator_.AssociateAndSolve(map_, &window_, &statistics);
+  if (doubt_.IsContradicted(statistics.agreement)) {
+    estimator_.LookAgain(map_, predicted, &motion_prior_, &window_, &statistics);
+  }
+  // Before the points ever held the body, there is no prediction to trust.
+  if (was_held()) estimator_.LeaveOutUnsupported(predicted, &window_, &statistics);
+  statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
+  if (IsUnsupported(window_, window_.segments.back()) &&
+      support_.IsBlind(window_.EndNs(), motion_prior_.density())) {
+    *cloud = std::move(window_.segments.back().cloud);
+    Revert(predicted, &window_);
+    window_.segments.pop_back();
+    return std::nullopt;
+  }
+  BelieveOrRevert(predicted, statistics);
+  LearnAndJudge(predicted.back(), &statistics);
+  Watch(&statistics);
+  if (doubt_.IsSure()) LookBack(&statistics);
+  const int to_keep = SegmentsToKeep(window_.segments.back(), options_.window.segments);
+  while (window_.size() > to_keep) Leave(&statistics);
+  NoteLoss(&statistics);
+  LookAround(statistics.agreement);
+  return statistics;
+}
+
+void Tracker::BelieveOrRevert(const std::vector<SE3>& predicted,
+                              const WindowStatistics& statistics) {
+  window_.is_believed = IsBelievable(statistics, window_);
+  if (!window_.is_believed) {
+    Revert(predicted, &window_);
+    return;
+  }
+  NoteSupport();
+  // Solved poses show how noisy the points are: a bad prediction is no noise.
+  map_.SetScatter(std::min(PointScatter(window_), options_.registration.kernel_m));
+}
+
+/// The newest segment that its points hold. One that sees a new part of the world is held as soon
+/// as the map has grown there.
+void Tracker::NoteSupport() {
+  for (std::size_t k = window_.segments.size(); k-- > 0;) {
+    if (IsUnsupported(window_, window_.segments[k])) continue;
+    support_.Supported(window_.segments[k].cloud.end_ns);
+    return;
+  }
+}
+
+/// Side by side: neither needs the other.
+void Tracker::LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics) {
+  SideTask learning(threads_);
+  if (window_.is_believed) {
+    learning.Start([&] {
+      motion_prior_.Learn(MeasureInnovation(window_, T_world_predicted),
+                          window_.segments.back().Duration_s());
+    });
+  }
+  Describe(window_, statistics);
+  Judge(options_.registration, &window_, statistics);
+  learning.Wait();
+  statistics->translation_density_m2_s3 = motion_prior_.density()[0];
+  statistics->rotation_density_rad2_s3 = motion_prior_.density()[3];
+}
+
+/// Judges the window by those before it as well.
+void Tracker::Watch(WindowStatistics* statistics) {
+  if (inlier_watch_.HasFew(*statistics)) statistics->flags |= kFlagFewInliers;
+  // These take time to show: they hold for all poses that are still here.
+  const unsigned late = statistics->flags & (kFlagFewInliers | kFlagJump);
+  poses_.FlagFirst(late);
+  window_.begin_flags |= late;
+  for (Segment& segment : window_.segments) segment.flags |= late;
+  doubt_.Update(window_, *statistics, motion_prior_.density());
+  statistics->flags |= doubt_.flags();
+  window_.segments.back().flags = statistics->flags;
+}
+
+/// What left the window in doubt is estimated once more.
+void Tracker::LookBack(WindowStatistics* statistics) {
+  poses_.LookBack(window_, [&](Window joined) -> std::optional<Window> {
+    motion_prior_.Apply(&joined);
+    const std::vector<SE3> start = joined.Poses();
+    WindowStatistics rounds;
+    estimator_.AssociateAndSolve(map_, &joined, &rounds);
+    estimator_.LeaveOutUnsupported(start, &joined, &rounds);
+    statistics->milliseconds_associate += rounds.milliseconds_associate;
+    statistics->milliseconds_solve += rounds.milliseconds_solve;
+    if (!rounds.is_finite) return std::nullopt;
+    return joined;
+  });
+}
+
+/// The oldest segment leaves: its first pose is settled, its points enter the map.
+void Tracker::Leave(WindowStatistics* statistics) {
+  Stopwatch watch;
+  SettleFront();
+  rig_->Learn(window_);
+  const SE3 T_begin = window_.T_world_begin;
+  const Segment& front = window_.segments.front();
+  // What no plane agrees with may be a hand before the LiDAR; but the first points agree with
+  // nothing.
+  const bool is_of_the_world =
+      !was_held() || (!IsUnsupported(window_, front) && doubt_.MayEnterMap(window_, front));
+  Segment oldest = Marginalize(options_.marginalization, &window_);
+  statistics->milliseconds_marginalize += watch.Milliseconds();
+  if (is_of_the_world) EnterMap(oldest.cloud, T_begin, oldest.T_world_end, threads_, &map_);
+  map_.RemoveFar(oldest.T_world_end.t);
+  statistics->milliseconds_map += watch.Milliseconds();
+  poses_.AddSegment(std::move(oldest));
+}
+
+/// The pose at the front of the window leaves it. The trajectory begins where the map does: what
+/// was before it, nothing tells.
+void Tracker::SettleFront() {
+  attitude_.Add(window_.T_world_begin.q);
+  if (poses_.trajectory().empty() && !HasMap()) return;
+  Matrix6d covariance = Matrix6d::Zero();
+  if (poses_.has_callback()) {
+    covariance = motion_prior_.covariance_scale() * PoseCovariance(AssembleWindow(window_), 0);
+  }
+  poses_.Leave(window_, covariance, was_held() && !doubt_.IsSure());
+}
+
+void Tracker::NoteLoss(WindowStatistics* statistics) {
+  if (const auto lost_since_ns = loss_watch_.Update(*statistics)) {
+    statistics->flags |= kFlagLost;
+    poses_.Lose(*lost_since_ns);
+  }
+}
+
+/// While the doubt lasts, the map does not grow, and a body at the right place would soon be out of
+/// it. Where the window is clearly found, the body is.
+void Tracker::LookAround(double agreement) {
+  const std::optional<SweepMotion> found =
+      window_search_.Look(window_, doubt_, agreement, TurnAxis(), map_, threads_);
+  if (!found) return;
+  doubt_.Dispel(window_.EndNs());
+  if (MeasureStep(window_.T_world_begin, found->T_world_begin).IsWithin(kSamePlace)) return;
+  MoveWindow(*found, &window_);
+  support_.Supported(window_.EndNs());
+  loss_watch_ = LossWatch();
+}
+
+/// About which the body may have turned most while its points did not hold it. A body on a rope
+/// turns about no vertical; but where only the floor was in view, its tilt is known.
+Eigen::Vector3d Tracker::TurnAxis() const {
+  return doubt_.open_axis_world().value_or(attitude_.VerticalInWorld());
+}
+
+void Tracker::EndWindow(std::int64_t before_ns) {
+  WindowStatistics unused;
+  while (window_.size() > 0) Leave(&unused);
+  if (window_.begin_ns < before_ns) SettleFront();
+}
+
+void Tracker::BeginBehindPause(std::int64_t end_ns) {
+  EndWindow(end_ns);
+  window_ = MakeWindow(end_ns, window_.T_world_begin);
+  window_.begin_flags = kFlagGap;
+}
+
+void Tracker::ForgetMap(std::int64_t end_ns) {
+  map_ = MapPyramid(options_.map);
+  poses_.ForgetFirst();
+  window_ = MakeWindow(end_ns, SE3());
+}
+
+LastSeen Tracker::WhereLastSeen() const {
+  return {support_.supported_until_ns(), window_.EndNs(),         window_.EndPose(),
+          window_.EndVelocity(),         motion_prior_.density(), TurnAxis()};
+}
+
+void Tracker::Resume(const ReturnSweep& found) {
+  const SegmentCloud& cloud = found.cloud;
+  EndWindow(cloud.begin_ns);
+  if (cloud.end_ns == cloud.begin_ns) poses_.Settle();
+  poses_.AddGap(cloud.begin_ns);
+  const SE3& T_world_begin = *found.T_world_begin;
+  window_ = MakeWindow(cloud.begin_ns, T_world_begin);
+  window_.prior = AnchorOfFound(T_world_begin);
+  window_.begin_flags = kFlagGap;
+  if (cloud.end_ns > cloud.begin_ns) {
+    window_.begin_velocity = found.tau / cloud.Duration_s();
+  } else {
+    // The mean velocity since the points held the body: all of that is settled by now.
+    const std::int64_t seen_ns = support_.supported_until_ns();
+    const SE3 T_world_seen = poses_.trajectory().At(seen_ns).value_or(T_world_begin);
+    window_.begin_velocity =
+        Minus(T_world_begin, T_world_seen) / Seconds(cloud.begin_ns - seen_ns);
+    EnterMap(cloud, T_world_begin, T_world_begin, threads_, &map_);
+  }
+  support_.Supported(cloud.begin_ns);
+  loss_watch_ = LossWatch();
+}
+
+void Tracker::Lose(std::int64_t t_ns) {
+  poses_.Lose(support_.supported_until_ns() + 1);
+  EndWindow(t_ns);
+  poses_.Settle();
+  map_ = MapPyramid(options_.map);
+  // What was usual there says nothing here.
+  inlier_watch_ = InlierWatch();
+  loss_watch_ = LossWatch();
+  support_ = SupportWatch();
+  doubt_ = DoubtWatch();
+}
+
+}  // namespace trajlo

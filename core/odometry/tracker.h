@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/odometry/health/doubt.h"
+#include "core/odometry/health/inlier_watch.h"
+#include "core/odometry/health/loss_watch.h"
+#include "core/odometry/health/support.h"
+#include "core/odometry/leaving_poses.h"
+#include "core/odometry/odometry_options.h"
+#include "core/odometry/parallel/thread_pool.h"
+#include "core/odometry/rig/rig_calibration.h"
+#include "core/odometry/start/mean_attitude.h"
+#include "core/odometry/start/return_search.h"
+#include "core/odometry/start/window_search.h"
+#include "core/odometry/window_estimator.h"
+
+namespace trajlo {
+
+/// Follows a body through a map that grows with it: one step for each segment. It is given a map to
+/// begin with, and a new place where it loses the body.
+class Tracker {
+ public:
+  /// `threads` and `rig`, which learns from every segment that leaves, must outlive it.
+  Tracker(const OdometryOptions& options, const WindowSolverFactory& make_solver,
+          ThreadPool* threads, RigCalibration* rig);
+
+  /// A map of one cloud alone, at `velocity` ([rho; theta] per second, body frame) from T_begin on,
+  /// and a window that begins where the cloud ends. `flags` are those of T_begin.
+  void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& velocity,
+                unsigned flags);
+  /// Whether there is something that points can agree with.
+  bool HasMap() const;
+  /// Whether points ever agreed with the map. Before, nothing is known that could be found again.
+  bool was_held() const { return support_.was_supported(); }
+
+  /// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.
+  /// Returns what happened; nothing where the points do not hold the body, and did not for so long
+  /// that the motion prior does not tell where it is. Then `cloud` is given back, and all is as if
+  /// it had not come. (Points that were moved by the prediction, see Deskewing, stay so.)
+  std::optional<WindowStatistics> Step(SegmentCloud* cloud);
+
+  /// All poses of the window before `before_ns` leave, and its segments enter the map.
+  void EndWindow(std::int64_t before_ns);
+
+  /// Begins again behind a pause which ends at `end_ns`, at the same pose, before points were held:
+  /// what was seen before tells neither where the body is behind it nor how it moved.
+  void BeginBehindPause(std::int64_t end_ns);
+  /// The same, where the map is all that there was: it is forgotten.
+  void ForgetMap(std::int64_t end_ns);
+
+  /// What is known of the body, for a search.
+  LastSeen WhereLastSeen() const;
+  const MeanAttitude& attitude() const { return attitude_; }
+  /// Goes on where a sweep was found in the map.
+  void Resume(const ReturnSweep& found);
+  /// Forgets the map, in which the body could not be found again. What comes from `t_ns` on is a
+  /// recording by itself.
+  void Lose(std::int64_t t_ns);
+
+  const SE3& T_world_begin() const { return window_.T_world_begin; }
+  const MapPyramid& map() const { return map_; }
+  const LeavingPoses& poses() const { return poses_; }
+  LeavingPoses& poses() { return poses_; }
+
+ private:
+  void BelieveOrRevert(const std::vector<SE3>& predicted, const WindowStatistics& statistics);
+  void NoteSupport();
+  void LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics);
+  void Watch(WindowStatistics* statistics);
+  void LookBack(WindowStatistics* statistics);
+  void Leave(WindowStatistics* statistics);
+  void SettleFront();
+  void NoteLoss(WindowStatistics* statistics);
+  void LookAround(double agreement);
+  Eigen::Vector3d TurnAxis() const;
+
+  const OdometryOptions options_;
+  ThreadPool* threads_;
+  RigCalibration* rig_;
+  MapPyramid map_;
+  Window window_;
+  MotionPrior motion_prior_;
+  WindowEstimator estimator_;
+  InlierWatch inlier_watch_;
+  LossWatch loss_watch_;
+  SupportWatch support_;
+  DoubtWatch doubt_;
+  WindowSearch window_search_;
+  MeanAttitude attitude_;
+  LeavingPoses poses_;
+};
+
+}  // namespace trajlo
