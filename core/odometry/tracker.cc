@@ -259,8 +259,7 @@ void Tracker::Resume(const ReturnSweep& found) {
     // The mean velocity since the points held the body: all of that is settled by now.
     const std::int64_t seen_ns = support_.supported_until_ns();
     const SE3 T_world_seen = poses_.trajectory().At(seen_ns).value_or(T_world_begin);
-    window_.begin_velocity =
-        Minus(T_world_begin, T_world_seen) / Seconds(cloud.begin_ns - seen_ns);
+    window_.begin_velocity = Minus(T_world_begin, T_world_seen) / Seconds(cloud.begin_ns - seen_ns);
     EnterMap(cloud, T_world_begin, T_world_begin, threads_, &map_);
   }
   support_.Supported(cloud.begin_ns);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/simulation/random.h"
+#include "core/simulation/random/counter_random.h"
 #include "core/simulation/scenes/scene_parts.h"
-#include "core/simulation/triangle_mesh.h"
+#include "core/simulation/scenes/triangle_mesh.h"
 
 namespace trajlo::simulation {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/simulation/pose_function.h"
-#include "core/simulation/scene.h"
+#include "core/simulation/motions/pose_function.h"
+#include "core/simulation/scenes/scene.h"
 
 namespace trajlo::simulation {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/simulation/random.h"
+#include "core/simulation/random/counter_random.h"
 
 namespace trajlo::simulation {
 

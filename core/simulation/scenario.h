@@ -7,7 +7,7 @@
 
 #include "core/simulation/companion.h"
 #include "core/simulation/faults.h"
-#include "core/simulation/motion.h"
+#include "core/simulation/motions/motion.h"
 #include "core/simulation/rig.h"
 
 namespace trajlo::simulation {

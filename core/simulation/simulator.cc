@@ -10,7 +10,7 @@
 
 #include "core/scans/nanoseconds.h"
 #include "core/simulation/point_time.h"
-#include "core/simulation/random.h"
+#include "core/simulation/random/counter_random.h"
 #include "core/simulation/scan_stream.h"
 #include "core/simulation/scenes/scene_builder.h"
 #include "core/simulation/sensors/laser_error.h"

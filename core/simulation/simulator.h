@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/simulation/scenario.h"
-#include "core/simulation/scene.h"
+#include "core/simulation/scenes/scene.h"
+#include "core/simulation/scenes/triangle_mesh.h"
 #include "core/simulation/sensors/laser_error.h"
 #include "core/simulation/simulated_scan.h"
-#include "core/simulation/triangle_mesh.h"
 
 namespace trajlo::simulation {
 

@@ -50,12 +50,12 @@ std::optional<SweepMotion> WindowSearch::Look(const Window& window, const DoubtW
   next_look_ns_ = window.EndNs() + std::llround(1e9 * kPatience * doubt.Age_s(window.EndNs()));
 
   // A window that contradicts the map does not tell how the body moves, either.
-  const Vector6d tau = doubt.IsContradicted(agreement)
-                           ? sweep.Duration_s() *
-                                 MotionOfFirstInterval(sweep, initialization_, map_options_,
-                                                       registration_, threads)
-                                     .velocity
-                           : Minus(window.EndPose(), window.T_world_begin);
+  const Vector6d tau =
+      doubt.IsContradicted(agreement)
+          ? sweep.Duration_s() *
+                MotionOfFirstInterval(sweep, initialization_, map_options_, registration_, threads)
+                    .velocity
+          : Minus(window.EndPose(), window.T_world_begin);
   return Relocalize(sweep, tau, map, RegionAround(window.T_world_begin, *reach, turn_axis_world),
                     registration_, threads);
 }

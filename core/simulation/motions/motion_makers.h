@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/simulation/motion.h"
+#include "core/simulation/motions/motion.h"
 
 /// The makers behind MakeMotion, one for each kind.
 namespace trajlo::simulation {

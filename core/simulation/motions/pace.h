@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/simulation/motion.h"
+#include "core/simulation/motions/motion.h"
 
 namespace trajlo::simulation {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/simulation/random.h"
+#include "core/simulation/random/counter_random.h"
 
 /// The small smooth functions of time that motions are made of.
 namespace trajlo::simulation {

@@ -6,7 +6,7 @@
 
 #include "core/simulation/motions/motion_makers.h"
 #include "core/simulation/motions/smooth.h"
-#include "core/simulation/random.h"
+#include "core/simulation/random/counter_random.h"
 
 namespace trajlo::simulation {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/simulation/motion.h"
-#include "core/simulation/scene.h"
-#include "core/simulation/triangle_mesh.h"
+#include "core/simulation/motions/motion.h"
+#include "core/simulation/scenes/scene.h"
+#include "core/simulation/scenes/triangle_mesh.h"
 
 namespace trajlo::simulation {
 

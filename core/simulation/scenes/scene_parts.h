@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/simulation/random.h"
-#include "core/simulation/triangle_mesh.h"
+#include "core/simulation/random/counter_random.h"
+#include "core/simulation/scenes/triangle_mesh.h"
 
 /// Furniture, trees, cars: the things that scenes are filled with. All stand on `base` (x, y and
 /// the height of the ground), metres.

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/simulation/random.h"
+#include "core/simulation/random/counter_random.h"
 
 namespace trajlo::simulation {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/simulation/scene.h"
+#include "core/simulation/scenes/scene.h"
 #include "core/simulation/simulator.h"
 #include "tests/core/simulation/hollow_cube.h"
 

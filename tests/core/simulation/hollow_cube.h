@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/simulation/scene.h"
+#include "core/simulation/scenes/scene.h"
 
 namespace trajlo::simulation {
 

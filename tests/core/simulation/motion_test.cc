@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/simulation/motion.h"
+#include "core/simulation/motions/motion.h"
 
 #include <gtest/gtest.h>
 

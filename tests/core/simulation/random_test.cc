@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/simulation/random.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "core/simulation/random/counter_random.h"
 
 namespace trajlo::simulation {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/simulation/scene.h"
+#include "core/simulation/scenes/scene.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "core/simulation/random.h"
+#include "core/simulation/random/counter_random.h"
 #include "core/simulation/scenes/scene_builder.h"
 #include "tests/core/simulation/hollow_cube.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/simulation/triangle_mesh.h"
+#include "core/simulation/scenes/triangle_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/simulation/scene.h"
+#include "core/simulation/scenes/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/simulation/embree.h"
+#include "core/simulation/scenes/embree.h"
 
 namespace trajlo::simulation {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/simulation/pose_function.h"
-#include "core/simulation/triangle_mesh.h"
+#include "core/simulation/motions/pose_function.h"
+#include "core/simulation/scenes/triangle_mesh.h"
 
 namespace trajlo::simulation {
 

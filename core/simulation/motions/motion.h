@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation/motions/pose_function.h"
 #include "core/simulation/motions/route.h"
-#include "core/simulation/pose_function.h"
 
 namespace trajlo::simulation {
 
