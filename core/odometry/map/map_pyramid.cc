@@ -67,11 +67,11 @@ MapPyramid::MapPyramid(const MapPyramidOptions& options) : plane_(options.plane)
 }
 
 void MapPyramid::Insert(const std::vector<MapPoint>& points) {
-  ++version_;
   // Points that a level has no use for, because it has others there, are hardly of use to coarser
   // ones.
-  std::vector<MapPoint> offered = points;
-  for (MapLevel& level : levels_) offered = level.Insert(offered);
+  std::vector<MapPoint> offered = levels_.front().Insert(points);
+  inserted_ += static_cast<std::int64_t>(offered.size());
+  for (std::size_t i = 1; i < levels_.size(); ++i) offered = levels_[i].Insert(offered);
 }
 
 void MapPyramid::RemoveFar(const Eigen::Vector3d& center_world) {

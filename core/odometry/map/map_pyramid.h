@@ -83,8 +83,8 @@ class MapPyramid {
   bool IsAround(const Eigen::Vector3d& place_world, const VoxelKey& cell) const {
     return levels_.front().IsAround(place_world, cell);
   }
-  /// Another number after each insertion.
-  std::int64_t version() const { return version_; }
+  /// How many points the finest level has been given so far; without a new one, nothing is new.
+  std::int64_t inserted() const { return inserted_; }
   /// The planes at `count` <= kMaxBatch places. One that the ray from the sensor merely grazes is
   /// taken only where there is no other, and none that is only known from its other side.
   void FindPlanes(const PlaneQuery* queries, std::size_t count, Plane* planes) const;
@@ -99,7 +99,7 @@ class MapPyramid {
   double WeightOf(const FittedPlane& plane, double coarseness) const;
 
   PlaneFitOptions plane_;
-  std::int64_t version_ = 0;
+  std::int64_t inserted_ = 0;
   double scatter_m_ = 0.0;
   std::deque<MapLevel> levels_;
 };

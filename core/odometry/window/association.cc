@@ -23,11 +23,14 @@ std::size_t SegmentAssociation::Begin(const std::vector<SegmentPoint>& points,
   if (!is_first && AreNear(T_begin, T_end, T_begin_, T_end_, tolerance)) return 0;
   T_begin_ = T_begin;
   T_end_ = T_end;
-  const bool has_grown = std::exchange(map_version_, map.version()) != map.version();
+  const bool has_grown = std::exchange(inserted_, map.inserted()) != map.inserted();
+  const std::int64_t grown = map.inserted() - inserted_at_all_;
+  const bool asks_all = is_first || grown > static_cast<std::int64_t>(points.size());
+  if (asks_all) inserted_at_all_ = map.inserted();
   cells_.resize(points.size(), VoxelKey::Constant(std::numeric_limits<int>::min()));
   planes_.resize(points.size());
   const std::size_t chunks = (points.size() + kBatch - 1) / kBatch;
-  round_.emplace(Round{&points, &map, has_grown, SegmentMotion(T_begin, T_end),
+  round_.emplace(Round{&points, &map, has_grown, asks_all, SegmentMotion(T_begin, T_end),
                        LidarPaths(lidar_origins_body_m, T_begin, T_end), std::vector<int>(chunks)});
   return chunks;
 }
@@ -46,7 +49,7 @@ void SegmentAssociation::Look(std::size_t chunk) {
   std::array<std::size_t, kBatch> asking;
   std::size_t asked = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool has_answer = !round_->has_grown || found[i].exists();
+    const bool has_answer = !round_->asks_all && (!round_->has_grown || found[i].exists());
     if (has_answer && map.IsAround(places[i], cells[i])) continue;
     cells[i] = map.CellOf(places[i]);
     const Eigen::Vector3d origin = round_->lidars[points[i].lidar].At(points[i].alpha);

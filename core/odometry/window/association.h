@@ -22,9 +22,10 @@ inline bool IsSamePoint(const RegistrationPoint& associated, const SegmentPoint&
   return associated.p_body_m == point.p_body_m.cast<double>() && associated.alpha == point.alpha;
 }
 
-/// The planes of one segment's points. A point keeps its plane until it leaves its cell of the map;
-/// a point without one asks again when the map has grown. Neither is asked while the segment moves
-/// less than a tolerance.
+/// The planes of one segment's points. A point keeps its plane until it leaves its cell of the map,
+/// or the map has grown by as many points as the segment has: behind a fast body the first planes
+/// are those of few points. One without a plane asks again when the map has grown at all. None is
+/// asked while the segment moves less than a tolerance.
 class SegmentAssociation {
  public:
   /// Takes every point to the world at its own time on T_begin..T_end, where Look() will look up
@@ -52,6 +53,7 @@ class SegmentAssociation {
     const std::vector<SegmentPoint>* points;
     const MapPyramid* map;
     bool has_grown;  ///< The map, since the last round.
+    bool asks_all;   ///< Also the points that have a plane.
     SegmentMotion motion;
     std::vector<LidarPath> lidars;
     std::vector<int> searched;  ///< In each chunk.
@@ -62,7 +64,8 @@ class SegmentAssociation {
   std::vector<Plane> planes_;
   /// In the last round.
   SE3 T_begin_, T_end_;
-  std::int64_t map_version_ = -1;
+  /// MapPyramid::inserted(), in the last round and in the last one that asked for all.
+  std::int64_t inserted_ = -1, inserted_at_all_ = 0;
   std::optional<Round> round_;
 };
 

@@ -184,6 +184,29 @@ TEST(SegmentAssociation, APointWithoutAPlaneAsksAgainWhenTheMapHasGrown) {
   EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
 }
 
+TEST(SegmentAssociation, AllAskAgainWhenTheMapHasGrownByAsManyPoints) {
+  MapPyramid map = BoxMap(20000, 1);
+  const Segment segment(500, 7);
+  ThreadPool threads(1);
+  Found found;
+  segment.Associate(map, &threads, &found);
+  const int without = 500 - static_cast<int>(found.points.size());
+  // Where the segment sees nothing: what counts is the whole map.
+  double x = 50.0;
+  const auto grow = [&](int count) {
+    for (int i = 0; i < count; ++i) map.Insert({{Eigen::Vector3d(x += 1.0, 50.0, 50.0)}});
+  };
+  grow(250);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), without);
+  grow(250);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), without);
+  grow(1);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 500);
+  grow(500);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), without);
+  EXPECT_EQ(segment.Associate(map, &threads, &found), 0);
+}
+
 TEST(SegmentAssociation, ASegmentThatHasNotMovedKeepsItsPlanes) {
   const MapPyramid map = BoxMap(20000, 1);
   const Segment segment(500, 7);
