@@ -13,7 +13,9 @@ WhiteNoiseAccelerationTerm::WhiteNoiseAccelerationTerm(const Vector6d& density, 
 
 Vector6d WhiteNoiseAccelerationTerm::Residual(const SE3& T_0, const SE3& T_1,
                                               const SE3& T_2) const {
-  return sqrt_information.cwiseProduct(Minus(T_2, T_1) / second_s - Minus(T_1, T_0) / first_s);
+  const Vector6d before = Minus(T_1, T_0) / first_s - mean_velocity;
+  const Vector6d after = Minus(T_2, T_1) / second_s - mean_velocity;
+  return sqrt_information.cwiseProduct(after - persistence.cwiseProduct(before));
 }
 
 Eigen::Matrix<double, 6, 18> WhiteNoiseAccelerationTerm::Jacobian(const SE3& T_0, const SE3& T_1,
@@ -21,8 +23,9 @@ Eigen::Matrix<double, 6, 18> WhiteNoiseAccelerationTerm::Jacobian(const SE3& T_0
   const Vector6d tau_1 = Minus(T_1, T_0);
   const Vector6d tau_2 = Minus(T_2, T_1);
   Eigen::Matrix<double, 6, 18> J;
-  J << se3::LeftJacobianInverse(tau_1) / first_s,
-      -se3::LeftJacobianInverse(tau_2) / second_s - se3::RightJacobianInverse(tau_1) / first_s,
+  J << persistence.asDiagonal() * se3::LeftJacobianInverse(tau_1) / first_s,
+      -se3::LeftJacobianInverse(tau_2) / second_s -
+          persistence.asDiagonal() * se3::RightJacobianInverse(tau_1) / first_s,
       se3::RightJacobianInverse(tau_2) / second_s;
   return sqrt_information.asDiagonal() * J;
 }

@@ -12,6 +12,10 @@ namespace trajlo {
 ///   e = tau_2 / Δt_2 - tau_1 / Δt_1,   tau_1 = T_1 ⊖ T_0,   tau_2 = T_2 ⊖ T_1,
 ///   r = e / sigma,                     sigma² = q (Δt_1 + Δt_2) / 3
 ///
+/// or, if the velocity returns to a mean m, keeping a share a of what it has beyond it,
+///
+///   e = (tau_2 / Δt_2 - m) - a (tau_1 / Δt_1 - m)
+///
 /// with q the spectral density of the acceleration, of each component: m²/s³ for translation,
 /// rad²/s³ for rotation. tau / Δt is the mean velocity over a segment. The velocity is a Wiener
 /// process, and the means of one over two neighbouring intervals differ by a variance of
@@ -25,16 +29,19 @@ namespace trajlo {
 /// paper takes the estimated one for exact, see SmoothnessTerm; then a prior that is too stiff
 /// confirms itself.) Jacobians with respect to right perturbations:
 ///
-///   de/dT_0 = Jl⁻¹(tau_1)/Δt_1,   de/dT_1 = -Jl⁻¹(tau_2)/Δt_2 - Jr⁻¹(tau_1)/Δt_1,
+///   de/dT_0 = a Jl⁻¹(tau_1)/Δt_1,   de/dT_1 = -Jl⁻¹(tau_2)/Δt_2 - a Jr⁻¹(tau_1)/Δt_1,
 ///   de/dT_2 = Jr⁻¹(tau_2)/Δt_2.
 ///
 /// Source: T. Barfoot, State Estimation for Robotics, 2017, section 11.1 (the prior in continuous
-/// time); here for the mean velocities of segments.
+/// time); here for the mean velocities of segments. A velocity that returns: G. Uhlenbeck and
+/// L. Ornstein, On the theory of the Brownian motion, 1930.
 struct WhiteNoiseAccelerationTerm {
   double first_s = 0.0;   ///< Δt_1
   double second_s = 0.0;  ///< Δt_2
   /// 1/sigma by component: translation (s/m) first, then rotation (s/rad).
   Vector6d sqrt_information = Vector6d::Zero();
+  Vector6d persistence = Vector6d::Ones();    ///< a, by component: 1 if the velocity is kept.
+  Vector6d mean_velocity = Vector6d::Zero();  ///< m, [rho; theta] per second.
 
   WhiteNoiseAccelerationTerm() = default;
   /// `density`: q by component, translation (m²/s³) first, then rotation (rad²/s³).

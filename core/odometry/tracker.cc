@@ -65,7 +65,8 @@ void Tracker::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vect
 bool Tracker::HasMap() const { return was_held() || map_.finest().size() >= kFewestToBegin; }
 
 std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
-  PushSegment(std::move(*cloud), options_.window.deskewing, &window_);
+  const Vector6d velocity = motion_prior_.Predict(window_, cloud->Duration_s());
+  PushSegment(std::move(*cloud), velocity, options_.window.deskewing, &window_);
   motion_prior_.Apply(&window_);
   window_.segments.back().bend_m2 = motion_prior_.Bend_m2(window_.segments.back().cloud);
   if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
@@ -125,8 +126,10 @@ void Tracker::LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* stat
   SideTask learning(threads_);
   if (window_.is_believed) {
     learning.Start([&] {
-      motion_prior_.Learn(MeasureInnovation(window_, T_world_predicted),
-                          window_.segments.back().Duration_s());
+      const Innovation innovation = MeasureInnovation(window_, T_world_predicted);
+      const double duration_s = window_.segments.back().Duration_s();
+      motion_prior_.Learn(innovation, duration_s);
+      motion_prior_.LearnPersistence(innovation, window_.EndVelocity(), duration_s);
     });
   }
   Describe(window_, statistics);

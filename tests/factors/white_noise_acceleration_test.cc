@@ -28,10 +28,14 @@ TEST(WhiteNoiseAcceleration, ValueAndJacobiansAreThoseOfAutodiff) {
     std::vector<SE3> poses = {random.Pose()};
     poses.push_back(Plus(poses[0], random.Tangent(angle, 1.0)));
     poses.push_back(Plus(poses[1], random.Tangent(std::min(2.0 * angle, 3.1), 0.5)));
-    const WhiteNoiseAccelerationTerm term(Densities(), 0.03, draw % 2 == 0 ? 0.03 : 0.1);
+    WhiteNoiseAccelerationTerm term(Densities(), 0.03, draw % 2 == 0 ? 0.03 : 0.1);
+    if (draw % 3 > 0) {
+      term.persistence << 0.9, 0.8, 0.7, 1.0, 0.6, 0.5;
+      term.mean_velocity = random.Tangent(0.5, 2.0);
+    }
     const WhiteNoiseAccelerationCost factor(&term);
     const ceres::AutoDiffCostFunction<WhiteNoiseAccelerationTwin, 6, 7, 7, 7> twin(
-        new WhiteNoiseAccelerationTwin{term.first_s, term.second_s, term.sqrt_information});
+        new WhiteNoiseAccelerationTwin{term});
     const double* blocks[3] = {poses[0].data(), poses[1].data(), poses[2].data()};
     Vector6d value, expected;
     factor.Evaluate(blocks, value.data(), nullptr);
@@ -66,6 +70,20 @@ TEST(WhiteNoiseAcceleration, IsZeroAtConstantVelocityWhateverTheIntervals) {
 }
 
 /// The formula q (dt_1 + dt_2) / 3 against sampled Wiener velocities.
+TEST(WhiteNoiseAcceleration, IsZeroForAVelocityThatReturnsToItsMean) {
+  WhiteNoiseAccelerationTerm term(Densities(), 0.03, 0.05);
+  term.persistence.setConstant(0.25);
+  term.mean_velocity << 1.0, 2.0, 3.0, 0.0, 0.0, 0.0;
+  Vector6d velocity;
+  velocity << 5.0, 2.0, -1.0, 0.4, 0.0, 0.0;
+  Vector6d later;
+  later << 2.0, 2.0, 2.0, 0.1, 0.0, 0.0;
+  const SE3 T_0 = Random(5).Pose();
+  const SE3 T_1 = Plus(T_0, 0.03 * velocity);
+  const SE3 T_2 = Plus(T_1, 0.05 * later);
+  EXPECT_LT(term.Residual(T_0, T_1, T_2).norm(), 1e-9 * term.sqrt_information.norm());
+}
+
 TEST(WhiteNoiseAcceleration, TheVarianceIsThatOfMeanVelocitiesUnderWhiteAcceleration) {
   Random random(4);
   const double q = 0.7, fine_s = 1e-3;

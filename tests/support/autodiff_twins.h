@@ -5,6 +5,7 @@
 
 #include "core/comparison/forms/autodiff_pose.h"
 #include "core/comparison/forms/point_to_plane_autodiff.h"
+#include "factors/white_noise_acceleration.h"
 #include "manifolds/se3.h"
 
 /// Templated twins of the factors for ceres::AutoDiffCostFunction, sharing nothing with the code
@@ -26,8 +27,7 @@ struct SmoothnessTwin {
 };
 
 struct WhiteNoiseAccelerationTwin {
-  double first_s, second_s;
-  Vector6d sqrt_information;
+  WhiteNoiseAccelerationTerm term;
   template <typename T>
   bool operator()(const T* block_0, const T* block_1, const T* block_2, T* residual) const {
     using Pose = autodiff::Pose<T>;
@@ -35,9 +35,11 @@ struct WhiteNoiseAccelerationTwin {
     const Pose T_1 = Pose::FromBlock(block_1);
     const Pose T_2 = Pose::FromBlock(block_2);
     Eigen::Map<autodiff::Vec6<T>> r(residual);
-    const autodiff::Vec6<T> before = (T_0.Inverse() * T_1).Log() / T(first_s);
-    const autodiff::Vec6<T> after = (T_1.Inverse() * T_2).Log() / T(second_s);
-    r = sqrt_information.cast<T>().cwiseProduct(after - before);
+    const autodiff::Vec6<T> m = term.mean_velocity.cast<T>();
+    const autodiff::Vec6<T> before = (T_0.Inverse() * T_1).Log() / T(term.first_s) - m;
+    const autodiff::Vec6<T> after = (T_1.Inverse() * T_2).Log() / T(term.second_s) - m;
+    r = term.sqrt_information.cast<T>().cwiseProduct(
+        after - term.persistence.cast<T>().cwiseProduct(before));
     return true;
   }
 };

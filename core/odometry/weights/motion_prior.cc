@@ -68,10 +68,21 @@ void MotionPrior::Apply(const Vector6d& density, Window* window) const {
     if (options_.kind == MotionPriorKind::kPseudoVelocity) {
       segment.motion = PseudoVelocity(*window, k, density);
     } else {
-      segment.motion =
-          WhiteNoiseAccelerationTerm(density, window->At(k - 1).Duration_s(), segment.Duration_s());
+      const double before_s = window->At(k - 1).Duration_s(), duration_s = segment.Duration_s();
+      WhiteNoiseAccelerationTerm term(density, before_s, duration_s);
+      term.persistence = persistence_.Over(0.5 * (before_s + duration_s));
+      term.mean_velocity = persistence_.mean_velocity();
+      segment.motion = term;
     }
   }
+}
+
+Vector6d MotionPrior::Predict(const Window& window, double duration_s) const {
+  const Vector6d velocity = window.EndVelocity();
+  if (window.size() == 0 || options_.kind == MotionPriorKind::kPseudoVelocity) return velocity;
+  const Vector6d& mean = persistence_.mean_velocity();
+  const double apart_s = 0.5 * (window.segments.back().Duration_s() + duration_s);
+  return mean + persistence_.Over(apart_s).cwiseProduct(velocity - mean);
 }
 
 double MotionPrior::Bend_m2(const SegmentCloud& cloud) const {
@@ -88,6 +99,11 @@ void MotionPrior::Follow(const Innovation& innovation) {
     const double density = density_[3 * part] * surprise;
     density_.segment<3>(3 * part).setConstant(std::min(density, kLargestDensity));
   }
+}
+
+void MotionPrior::LearnPersistence(const Innovation& innovation, const Vector6d& velocity,
+                                   double duration_s) {
+  if (options_.self_tuning) persistence_.Learn(velocity, innovation.gain, duration_s);
 }
 
 void MotionPrior::Learn(const Innovation& innovation, double duration_s) {

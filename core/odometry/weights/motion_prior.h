@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/odometry/weights/innovation.h"
+#include "core/odometry/weights/velocity_persistence.h"
 #include "core/odometry/window/window.h"
 #include "core/options/describe.h"
 
@@ -28,7 +29,8 @@ struct MotionPriorOptions {
       "White noise on acceleration, which ties neighbouring segments, or the paper's "
       "pseudo-velocity, which ties a segment to the last estimate of the one before.");
     d(OptionFor::kUsers, "self_tuning", self_tuning,
-      "Lets the densities of the prior (expert.motion_prior) follow the motion; false keeps them.");
+      "Lets the prior follow the motion: the densities of its acceleration (expert.motion_prior), "
+      "and how long the body keeps a velocity. false keeps the densities, and all velocities.");
     d(OptionFor::kExperts, "translation_m2_s3", translation_m2_s3, Range<double>{1e-9, 1e9},
       "Spectral density of the acceleration: how freely the body moves. The translations of "
       "neighbouring segments of length dt differ by a variance of 2/3 of it times dt^3. "
@@ -90,6 +92,10 @@ class MotionPrior {
   /// lag of the prediction, which the points have taken away. The smaller one is taken.
   double covariance_scale() const { return std::min(surprise_.mean(), scatter_.mean()); }
 
+  /// The velocity to expect of a segment of `duration_s` that follows those of a window,
+  /// [rho; theta] per second, body frame.
+  Vector6d Predict(const Window& window, double duration_s) const;
+
   /// Ties the velocities of the segments by the present densities.
   void Apply(Window* window) const { Apply(density_, window); }
   /// The same, but leaves rotation almost free.
@@ -98,6 +104,8 @@ class MotionPrior {
   /// Takes the newest innovation of a window that is believed; `duration_s` is that of the newest
   /// segment.
   void Learn(const Innovation& innovation, double duration_s);
+  /// Takes the velocity of that segment: how long the body keeps it, see VelocityPersistence.
+  void LearnPersistence(const Innovation& innovation, const Vector6d& velocity, double duration_s);
 
   /// Takes an innovation that the densities say cannot be, and the points say is: raises them until
   /// they would have predicted as much, the likeliest value by this innovation alone.
@@ -108,6 +116,7 @@ class MotionPrior {
 
   MotionPriorOptions options_;
   Vector6d density_;
+  VelocityPersistence persistence_;
   Vector6d sum_ = Vector6d::Zero();  ///< s
   /// u and z² of translation and of rotation, averaged over T_l.
   Eigen::Vector2d surprise_ = Eigen::Vector2d::Ones();

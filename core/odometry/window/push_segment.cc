@@ -30,8 +30,8 @@ Window MakeWindow(std::int64_t begin_ns, const SE3& T_world_begin) {
   return window;
 }
 
-void PushSegment(SegmentCloud cloud, Deskewing deskewing, Window* window) {
-  const Vector6d velocity = window->EndVelocity();
+void PushSegment(SegmentCloud cloud, const Vector6d& velocity, Deskewing deskewing,
+                 Window* window) {
   Segment segment;
   segment.cloud = std::move(cloud);
   const double duration_s = segment.Duration_s();
