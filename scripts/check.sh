@@ -51,14 +51,16 @@ check() {
   fi
 }
 
+# Those that git knows, and new ones that it does not ignore.
+files() { git ls-files --cached --others --exclude-standard -- "$@"; }
 # Files with a line like `#!/usr/bin/python3` at the top.
 with_interpreter() {
-  git grep -lIE "^#!.*$1" | while read -r file; do
+  git grep --untracked -lIE "^#!.*$1" | while read -r file; do
     if head -n 1 "$file" | grep -qE "^#!.*$1"; then echo "$file"; fi
   done
 }
-cpp_files() { git ls-files -- '*.cc' '*.h'; }
-python_files() { { git ls-files -- '*.py'; with_interpreter python3; } | sort -u; }
+cpp_files() { files '*.cc' '*.h'; }
+python_files() { { files '*.py'; with_interpreter python3; } | sort -u; }
 
 format() { cpp_files | xargs clang-format-14 --dry-run --Werror; }
 
@@ -67,7 +69,7 @@ format() { cpp_files | xargs clang-format-14 --dry-run --Werror; }
 spdx() {
   local missing
   missing="$({
-    git ls-files -- '*.cc' '*.h' '*.py' '*.sh' '*.js' '*.css' '*.html' '*.cmake' '*CMakeLists.txt' \
+    files '*.cc' '*.h' '*.py' '*.sh' '*.js' '*.css' '*.html' '*.cmake' '*CMakeLists.txt' \
       '*.yaml' '*Snakefile' '*.supp' 'scripts/packages*.txt' .clang-tidy \
       ':!*/fixtures/*' ':!*/fuzz/corpus/*' ':!config/default.yaml' ':!config/expert.yaml'
     with_interpreter '(bash|python3)'

@@ -67,6 +67,9 @@ struct MotionPriorOptions {
 /// so the lag that it causes counts more. And nothing is learnt where the points tell nothing:
 /// there w is near 0.
 ///
+/// The velocity that this acceleration changes is the one before, or returns to its mean: see
+/// VelocityPersistence.
+///
 /// Idea: R. Mehra, On the identification of variances and adaptive Kalman filtering, 1970.
 class MotionPrior {
  public:

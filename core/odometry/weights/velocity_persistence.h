@@ -7,21 +7,21 @@
 
 namespace trajlo {
 
-/// How long a body keeps the velocity that it has, learnt while running: a car for many seconds, a
-/// hand that shakes for a tenth of one.
+/// How long a body keeps the velocity that it has, learnt while running: a car for many seconds,
+/// one on a rope for a fifth of a second.
 ///
 /// Let m be the mean velocity of late, and v - m what the body has beyond it. Its correlation with
 /// what it was L = 0.3 s ago, as far as the points told both (w, the gains of their innovations),
 ///
-///   rho = (mean of v_tᵀ W v_{t-L} + c) / (mean of v_{t-L}ᵀ W v_{t-L} + c),  v less m, W = w_t
-///   w_{t-L},
+///   rho = (mean of v_tᵀ W v_{t-L} + c) / (mean of v_{t-L}ᵀ W v_{t-L} + c),
 ///
-/// says what share of it is left after L, and rho^(t/L) after t. c = (0.5 m/s)² holds rho near 1
-/// until larger motions say something else: at rest, velocities are noise.
+/// with v less m and W = diag(w_t w_{t-L}), says what share of it is left after L, and rho^(t/L)
+/// after t. c = (0.5 m/s)² holds rho near 1 until larger motions say something else: at rest,
+/// velocities are noise.
 ///
 /// Where no point holds the body along some direction, it is predicted to come back to its mean
 /// velocity with this share: who swings or shakes does not fly on with the velocity of one moment.
-/// This cannot confirm itself: there w is near 0, and nothing is learnt.
+/// This cannot confirm itself: there w is near 0, and what was learnt fades within seconds.
 ///
 /// Of translation alone, in the body frame. (To let turn rates return brought nothing.)
 class VelocityPersistence {
