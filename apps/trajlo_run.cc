@@ -87,9 +87,9 @@ Flags:
 Flags may stand anywhere. A value may follow after a space in place of the `=`.
 
 Exit codes: 0 ok, 1 wrong usage or configuration, 2 input unreadable, 3 part of the input is
-damaged or missing, or hardly a pose is sure, 4 the estimator got lost, 5 output not writable, 6 out
-of memory or a defect of the program, 130 interrupted. After 3, 4 and 130, the result so far is
-written.
+damaged or missing, or poses may be far off (the message says why), 4 the estimator got lost, 5
+output not writable, 6 out of memory or a defect of the program, 130 interrupted. After 3, 4 and
+130, the result so far is written.
 )";
 
 trajlo::RunConfig ConfigFromFlags() {

@@ -17,6 +17,7 @@ struct FlaggedPoses {
   std::size_t poses = 0;
   std::size_t control_poses = 0;
   double seconds = 0.0;
+  double longest_s = 0.0;  ///< The longest such time on end.
 };
 
 /// What can be said against the poses of a trajectory, once a run is over. A time between two

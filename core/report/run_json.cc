@@ -61,7 +61,8 @@ Json InputJson(const RunSummary& s) {
 Json FlaggedJson(const PoseFlags& flags) {
   Json json = Json::object();
   for (const auto& [name, total] : flags.totals()) {
-    json[name] = {{"poses", total.poses}, {"seconds", total.seconds}};
+    json[name] = {
+        {"poses", total.poses}, {"seconds", total.seconds}, {"longest_s", total.longest_s}};
   }
   return json;
 }

@@ -12,6 +12,9 @@ namespace {
 
 /// A smaller part of the input is not worth an exit code.
 constexpr double kSizeableShare = 0.05;
+/// What no point holds for so long may be metres off: the calmest motion that the motion prior
+/// assumes (0.5 m²/s³) strays by 4.6 m.
+constexpr double kLongOpen_s = 5.0;
 
 std::string Seconds(double seconds) { return FormatText("%.1f s", seconds); }
 
@@ -138,6 +141,11 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
     parts->push_back(
         FormatText("%.2f of %.2f s have a flag (flags.csv)", flags.any().seconds, flags.seconds()) +
         ": hardly a pose can be relied on");
+  } else if (flags.totals().at("degenerate").longest_s > kLongOpen_s) {
+    parts->push_back(
+        FormatText("for %.2f s on end the points left a direction open (flag degenerate)",
+                   flags.totals().at("degenerate").longest_s) +
+        ": nothing tells how the body moved along or about it");
   }
 }
 

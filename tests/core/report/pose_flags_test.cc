@@ -27,6 +27,19 @@ TEST(PoseFlags, CountPosesAndTheTimeBeforeThem) {
   EXPECT_EQ(flags.seconds(), 4.0);
 }
 
+TEST(PoseFlags, TellTheLongestTimeOnEnd) {
+  std::vector<ControlPose> poses(11);
+  for (int i = 0; i < 11; ++i) poses[i].t_ns = i * kSecond;
+  for (const int i : {1, 2, 4, 5, 6, 9}) poses[i].flags = kFlagDegenerate;
+  poses[7].flags = kFlagJump;
+  const PoseFlags flags(poses, std::nullopt);
+  EXPECT_EQ(flags.totals().at("degenerate").longest_s, 3.0);
+  EXPECT_EQ(flags.totals().at("degenerate").seconds, 6.0);
+  EXPECT_EQ(flags.totals().at("jump").longest_s, 1.0);
+  EXPECT_EQ(flags.totals().at("gap").longest_s, 0.0);
+  EXPECT_EQ(flags.any().longest_s, 4.0);
+}
+
 TEST(PoseFlags, WhatLiesInAPauseHasItsFlagAndWhatFollowsHasNot) {
   const PoseFlags flags(Poses(), std::nullopt);
   EXPECT_EQ(flags.At(kSecond), 0u);

@@ -153,7 +153,7 @@ TEST(RunSummary, SaysThatHardlyAPoseCanBeReliedOn) {
   std::vector<ControlPose> poses(kPoses);
   for (int i = 0; i < kPoses; ++i) {
     poses[i].t_ns = i * 100'000'000LL;
-    poses[i].flags = i < 95 ? kFlagDegenerate : 0U;
+    poses[i].flags = i < 95 ? kFlagFewInliers : 0U;
   }
   RunSummary s;
   s.flags = PoseFlags(poses, std::nullopt);
@@ -165,6 +165,22 @@ TEST(RunSummary, SaysThatHardlyAPoseCanBeReliedOn) {
   // What nothing confirms is said once.
   s.too_short = true;
   EXPECT_THAT(s.MissingInput(), Not(HasSubstr("flag")));
+}
+
+TEST(RunSummary, SaysThatADirectionWasOpenForLong) {
+  constexpr int kPoses = 1001;
+  std::vector<ControlPose> poses(kPoses);
+  for (int i = 0; i < kPoses; ++i) poses[i].t_ns = i * 100'000'000LL;
+  for (int i = 100; i < 150; ++i) poses[i].flags = poses[i + 100].flags = kFlagDegenerate;
+  RunSummary s;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.MissingInput(), "");  // Five seconds, twice.
+  poses[150].flags = kFlagDegenerate;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(
+      s.MissingInput(),
+      "for 5.10 s on end the points left a direction open (flag degenerate): nothing tells how "
+      "the body moved along or about it");
 }
 
 TEST(RunSummary, SaysThatNothingWasMeasuredForLong) {
