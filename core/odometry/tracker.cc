@@ -65,12 +65,7 @@ void Tracker::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vect
 bool Tracker::HasMap() const { return was_held() || map_.finest().size() >= kFewestToBegin; }
 
 std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
-  const Vector6d velocity = motion_prior_.Predict(window_, cloud->Duration_s());
-  PushSegment(std::move(*cloud), velocity, options_.window.deskewing, &window_);
-  motion_prior_.Apply(&window_);
-  window_.segments.back().bend_m2 = motion_prior_.Bend_m2(window_.segments.back().cloud);
-  if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
-  const std::vector<SE3> predicted = window_.Poses();
+  const std::vector<SE3> predicted = Push(cloud);
 
   WindowStatistics statistics;
   statistics.restless = RestlessStep(window_.segments.back().cloud);
@@ -80,14 +75,11 @@ std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
   }
   // Before the points ever held the body, there is no prediction to trust.
   if (was_held()) estimator_.LeaveOutUnsupported(predicted, &window_, &statistics);
-  statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
-  if (IsUnsupported(window_, window_.segments.back()) &&
-      support_.IsBlind(window_.EndNs(), motion_prior_.density())) {
-    *cloud = std::move(window_.segments.back().cloud);
-    Revert(predicted, &window_);
-    window_.segments.pop_back();
+  if (IsBlind()) {
+    TakeBack(predicted, cloud);
     return std::nullopt;
   }
+  statistics.correction = MeasureStep(predicted.back(), window_.EndPose());
   BelieveOrRevert(predicted, statistics);
   LearnAndJudge(predicted.back(), &statistics);
   Watch(&statistics);
@@ -97,6 +89,30 @@ std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
   NoteLoss(&statistics);
   LookAround(statistics.agreement);
   return statistics;
+}
+
+/// A segment comes, where the motion prior puts it. Returns the predicted poses.
+std::vector<SE3> Tracker::Push(SegmentCloud* cloud) {
+  const Vector6d velocity = motion_prior_.Predict(window_, cloud->Duration_s());
+  PushSegment(std::move(*cloud), velocity, options_.window.deskewing, &window_);
+  motion_prior_.Apply(&window_);
+  Segment& newest = window_.segments.back();
+  newest.bend_m2 = motion_prior_.Bend_m2(newest.cloud);
+  if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
+  return window_.Poses();
+}
+
+/// Whether the points of the newest segment do not hold the body, and did not for too long.
+bool Tracker::IsBlind() const {
+  return IsUnsupported(window_, window_.segments.back()) &&
+         support_.IsBlind(window_.EndNs(), motion_prior_.density());
+}
+
+/// As if the newest segment had not come.
+void Tracker::TakeBack(const std::vector<SE3>& predicted, SegmentCloud* cloud) {
+  *cloud = std::move(window_.segments.back().cloud);
+  Revert(predicted, &window_);
+  window_.segments.pop_back();
 }
 
 void Tracker::BelieveOrRevert(const std::vector<SE3>& predicted,

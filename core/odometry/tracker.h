@@ -67,6 +67,9 @@ class Tracker {
   LeavingPoses& poses() { return poses_; }
 
  private:
+  std::vector<SE3> Push(SegmentCloud* cloud);
+  bool IsBlind() const;
+  void TakeBack(const std::vector<SE3>& predicted, SegmentCloud* cloud);
   void BelieveOrRevert(const std::vector<SE3>& predicted, const WindowStatistics& statistics);
   void NoteSupport();
   void LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics);
