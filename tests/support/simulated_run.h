@@ -17,6 +17,7 @@ namespace trajlo::testing {
 struct SimulatedRun {
   std::vector<ControlPose> poses;
   std::vector<Matrix6d> covariances;
+  std::vector<WindowStatistics> windows;
   std::vector<SE3> truth;  ///< Of each pose, in the frame of the first one.
   std::optional<std::int64_t> lost_at_ns;
 
@@ -31,6 +32,7 @@ struct SimulatedRun {
       poses.push_back(pose);
       covariances.push_back(covariance);
     });
+    odometry.OnWindow([&](const WindowStatistics& window) { windows.push_back(window); });
     simulation::SimulateScans(simulator, 2, [&](const auto& scan) { odometry.AddScan(scan.scan); });
     odometry.Finish();
     lost_at_ns = odometry.lost_at_ns();

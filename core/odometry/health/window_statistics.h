@@ -56,6 +56,8 @@ struct WindowStatistics {
   /// Spectral densities of the acceleration for the next window: see MotionPrior.
   double translation_density_m2_s3 = 0.0;
   double rotation_density_rad2_s3 = 0.0;
+  /// The share of a velocity beyond its mean that is left after 0.3 s: see VelocityPersistence.
+  double velocity_persistence = 1.0;
   /// How far the points moved the newest pose from where the motion prior had put it.
   StepSize correction;
   double agreement = 0.0;  ///< MapAgreement::worst, of the newest segment.

@@ -78,6 +78,8 @@ class MotionPrior {
   /// [rho; theta]: m²/s³ and rad²/s³.
   const Vector6d& density() const { return density_; }
 
+  const VelocityPersistence& persistence() const { return persistence_; }
+
   /// How far the body strays within a segment from the constant twist between its control poses,
   /// the mean square. White acceleration of density q leaves q t² (Δt - t)² / (3 Δt) at t, and
   /// q Δt³ / 90 on average. None for a scan at one instant, nor for a pseudo-velocity, which takes

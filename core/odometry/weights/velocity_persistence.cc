@@ -36,11 +36,14 @@ void VelocityPersistence::Learn(const Vector6d& velocity, const Vector6d& gain, 
   square_ += share * (weights.dot(before.velocity.cwiseAbs2()) - square_);
 }
 
-Vector6d VelocityPersistence::Over(double duration_s) const {
+double VelocityPersistence::share() const {
   constexpr double kEvidence = kSlow_m_s * kSlow_m_s;
-  const double left = std::clamp((product_ + kEvidence) / (square_ + kEvidence), kLeast, 1.0);
+  return std::clamp((product_ + kEvidence) / (square_ + kEvidence), kLeast, 1.0);
+}
+
+Vector6d VelocityPersistence::Over(double duration_s) const {
   Vector6d over = Vector6d::Ones();
-  over.head<3>().setConstant(std::pow(left, duration_s / kLag_s));
+  over.head<3>().setConstant(std::pow(share(), duration_s / kLag_s));
   return over;
 }
 

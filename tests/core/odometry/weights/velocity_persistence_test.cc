@@ -23,7 +23,8 @@ double LeftAfter(double duration_s, const std::function<double(double)>& speed_a
     velocity[0] = speed_at(i * kStep_s);
     persistence.Learn(velocity, Vector6d::Constant(gain), kStep_s);
   }
-  return persistence.Over(0.3)[0];
+  EXPECT_DOUBLE_EQ(persistence.Over(0.3)[0], persistence.share());
+  return persistence.share();
 }
 
 TEST(VelocityPersistence, AllIsKeptUntilThereIsEvidence) {
