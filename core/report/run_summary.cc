@@ -15,6 +15,8 @@ constexpr double kSizeableShare = 0.05;
 /// What no point holds for so long may be metres off: the calmest motion that the motion prior
 /// assumes (0.5 m²/s³) strays by 4.6 m.
 constexpr double kLongOpen_s = 5.0;
+/// Who swings on a rope, and is found each time, is in doubt for up to a fifth of the time.
+constexpr double kDoubtfulShare = 0.25;
 
 std::string Seconds(double seconds) { return FormatText("%.1f s", seconds); }
 
@@ -137,15 +139,21 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
     parts->push_back(
         FormatText("nothing was measured for %.2f of %.2f s", unmeasured_s, flags.seconds()));
   }
+  const FlaggedPoses jump = flags.totals().at("jump"), open = flags.totals().at("degenerate");
   if (!too_short && flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
     parts->push_back(
         FormatText("%.2f of %.2f s have a flag (flags.csv)", flags.any().seconds, flags.seconds()) +
         ": hardly a pose can be relied on");
-  } else if (flags.totals().at("degenerate").longest_s > kLongOpen_s) {
+  } else if (open.longest_s > kLongOpen_s) {
     parts->push_back(
         FormatText("for %.2f s on end the points left a direction open (flag degenerate)",
-                   flags.totals().at("degenerate").longest_s) +
+                   open.longest_s) +
         ": nothing tells how the body moved along or about it");
+  } else if (jump.seconds > kDoubtfulShare * flags.seconds()) {
+    parts->push_back(
+        FormatText("for %.2f of %.2f s poses jump as no body does, or are in doubt "
+                   "since (flag jump)",
+                   jump.seconds, flags.seconds()));
   }
 }
 

@@ -183,6 +183,19 @@ TEST(RunSummary, SaysThatADirectionWasOpenForLong) {
       "the body moved along or about it");
 }
 
+TEST(RunSummary, SaysThatPosesWereInDoubtForAQuarterOfTheTime) {
+  std::vector<ControlPose> poses(101);
+  for (int i = 0; i <= 100; ++i) poses[i].t_ns = i * 100'000'000LL;
+  for (int i = 0; i < 24; ++i) poses[4 * i + 1].flags = kFlagJump;
+  RunSummary s;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.MissingInput(), "");
+  poses[2].flags = poses[6].flags = kFlagJump;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.MissingInput(),
+            "for 2.60 of 10.00 s poses jump as no body does, or are in doubt since (flag jump)");
+}
+
 TEST(RunSummary, SaysThatNothingWasMeasuredForLong) {
   constexpr std::int64_t kMillisecond = 1'000'000;
   std::vector<ControlPose> poses = {{0, {}, 0}, {9500 * kMillisecond, {}, 0}, {0, {}, kFlagGap}};
