@@ -11,25 +11,30 @@ namespace trajlo {
 
 PoseFlags::PoseFlags(const std::vector<ControlPose>& poses,
                      std::optional<std::int64_t> lost_at_ns) {
-  for (const unsigned flag : kAllFlags) totals_[FlagNames(flag)] = {};
-  std::map<FlaggedPoses*, double> on_end_s;
+  struct Counter {
+    unsigned bits;
+    FlaggedPoses* total;
+    double on_end_s = 0.0;
+  };
+  std::vector<Counter> counters = {{~0U, &any_}};
+  for (const unsigned flag : kAllFlags) counters.push_back({flag, &totals_[FlagNames(flag)]});
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const bool is_lost = lost_at_ns && poses[i].t_ns >= *lost_at_ns;
     const unsigned flags = poses[i].flags | (is_lost ? kFlagLost : 0U);
     poses_.push_back({poses[i].t_ns, flags});
     const double duration_s = i > 0 ? Seconds(poses[i].t_ns - poses[i - 1].t_ns) : 0.0;
     seconds_ += duration_s;
-    const auto count = [&](bool is_flagged, FlaggedPoses* total) {
-      double& until_here_s = on_end_s[total];
-      until_here_s = is_flagged ? until_here_s + duration_s : 0.0;
-      if (!is_flagged) return;
+    for (auto& [bits, total, on_end_s] : counters) {
+      if ((flags & bits) == 0) {
+        on_end_s = 0.0;
+        continue;
+      }
+      on_end_s += duration_s;
       ++total->poses;
       ++total->control_poses;
       total->seconds += duration_s;
-      total->longest_s = std::max(total->longest_s, until_here_s);
-    };
-    count(flags != 0, &any_);
-    for (const unsigned flag : kAllFlags) count((flags & flag) != 0, &totals_[FlagNames(flag)]);
+      total->longest_s = std::max(total->longest_s, on_end_s);
+    }
   }
 }
 

@@ -15,7 +15,8 @@ constexpr double kSizeableShare = 0.05;
 /// What no point holds for so long may be metres off: the calmest motion that the motion prior
 /// assumes (0.5 m²/s³) strays by 4.6 m.
 constexpr double kLongOpen_s = 5.0;
-/// Who swings on a rope, and is found each time, is in doubt for up to a fifth of the time.
+/// Who swings on a rope, and is found each time, is in doubt for up to a fifth of the time; who
+/// follows a facade metres off, for a third.
 constexpr double kDoubtfulShare = 0.25;
 
 std::string Seconds(double seconds) { return FormatText("%.1f s", seconds); }
@@ -140,7 +141,8 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
         FormatText("nothing was measured for %.2f of %.2f s", unmeasured_s, flags.seconds()));
   }
   const FlaggedPoses jump = flags.totals().at("jump"), open = flags.totals().at("degenerate");
-  if (!too_short && flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
+  if (too_short) return;  // It is said above that nothing confirms the poses.
+  if (flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
     parts->push_back(
         FormatText("%.2f of %.2f s have a flag (flags.csv)", flags.any().seconds, flags.seconds()) +
         ": hardly a pose can be relied on");

@@ -69,7 +69,6 @@ TEST(WhiteNoiseAcceleration, IsZeroAtConstantVelocityWhateverTheIntervals) {
             1e-9);
 }
 
-/// The formula q (dt_1 + dt_2) / 3 against sampled Wiener velocities.
 TEST(WhiteNoiseAcceleration, IsZeroForAVelocityThatReturnsToItsMean) {
   WhiteNoiseAccelerationTerm term(Densities(), 0.03, 0.05);
   term.persistence.setConstant(0.25);
@@ -84,6 +83,7 @@ TEST(WhiteNoiseAcceleration, IsZeroForAVelocityThatReturnsToItsMean) {
   EXPECT_LT(term.Residual(T_0, T_1, T_2).norm(), 1e-9 * term.sqrt_information.norm());
 }
 
+/// The formula q (dt_1 + dt_2) / 3 against sampled Wiener velocities.
 TEST(WhiteNoiseAcceleration, TheVarianceIsThatOfMeanVelocitiesUnderWhiteAcceleration) {
   Random random(4);
   const double q = 0.7, fine_s = 1e-3;

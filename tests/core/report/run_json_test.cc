@@ -163,6 +163,8 @@ TEST(RunSummary, SaysThatHardlyAPoseCanBeReliedOn) {
   EXPECT_EQ(s.MissingInput(),
             "9.60 of 10.00 s have a flag (flags.csv): hardly a pose can be relied on");
   // What nothing confirms is said once.
+  for (ControlPose& pose : poses) pose.flags = kFlagJump | kFlagDegenerate;
+  s.flags = PoseFlags(poses, std::nullopt);
   s.too_short = true;
   EXPECT_THAT(s.MissingInput(), Not(HasSubstr("flag")));
 }
