@@ -129,7 +129,7 @@ ExitCode Judge(const CompareReport& report, bool has_truth, bool was_interrupted
     std::fprintf(stderr, "trajlo_compare_solvers: %s\n", text.c_str());
     code = worse;
   };
-  if (!read.missing_input.empty()) say(ExitCode::kPartialInput, read.missing_input);
+  if (!read.shortcomings.empty()) say(ExitCode::kPartialInput, read.shortcomings);
   if (!HasWindows(report) && !was_interrupted) {
     say(ExitCode::kPartialInput,
         "nothing was compared: no window was estimated. The recording, or what input.start_s and "

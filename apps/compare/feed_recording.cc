@@ -38,7 +38,7 @@ Feed FeedRecording(const CompareRequest& request, const std::string& name,
     summary.end_ns = odometry->trajectory().poses().back().t_ns;
   }
   summary.flags = PoseFlags(odometry->trajectory().poses(), odometry->lost_at_ns());
-  feed.missing_input = summary.MissingInput();
+  feed.shortcomings = summary.Shortcomings();
   feed.warnings = summary.times.remarks;
   feed.warnings.insert(feed.warnings.end(), summary.read.warnings.begin(),
                        summary.read.warnings.end());

@@ -17,7 +17,7 @@ struct Feed {
   double wall_s = 0.0;
   std::optional<std::int64_t> lost_at_ns;
   /// See RunSummary.
-  std::string missing_input;
+  std::string shortcomings;
   std::vector<std::string> warnings;
 };
 

@@ -55,9 +55,9 @@ void JudgeOutcome(bool interrupted, RunSummary* s) {
             " s; poses from there on are not to be trusted (flags.csv and windows.csv show what "
             "happened)",
         s);
-  } else if (const std::string missing = s->MissingInput(); !missing.empty()) {
+  } else if (const std::string shortcomings = s->Shortcomings(); !shortcomings.empty()) {
     const char* more = s->warnings.empty() ? "" : "; the warnings say more";
-    End(ExitCode::kPartialInput, "partial_input", missing + more, s);
+    End(ExitCode::kPartialInput, "partial_input", shortcomings + more, s);
   } else {
     End(ExitCode::kOk, "ok", "", s);
   }

@@ -53,7 +53,7 @@ std::string RunSummary::OddStamps() const {
   return text;
 }
 
-std::string RunSummary::MissingInput() const {
+std::string RunSummary::Shortcomings() const {
   std::vector<std::string> parts;
   AddDamage(&parts);
   AddOddTimes(&parts);

@@ -64,7 +64,7 @@ struct RunSummary {
   /// What became of scans with odd stamps, and of how many: "3 put in order, 1 dropped (...)";
   /// empty if there were none.
   std::string OddStamps() const;
-  /// What of the input is missing or cannot be relied on, if it is more than a little: exit code 3.
+  /// Why the result cannot be relied on as a whole (exit code 3); empty if it can. Damage counts.
   /// Points count if more than 5 % were dropped because of their times, scans if more than 5 %
   /// have other times than their stamps or, unlike the others, one time for all points, if more
   /// than 5 % have or seem to have the points of others, if the first or the last 5 % have no
@@ -72,7 +72,7 @@ struct RunSummary {
   /// count if they take more than 5 % of the time, flags if they take more than 95 %, poses that
   /// jump or are in doubt since if they take more than a quarter, and a direction that the points
   /// leave open if they do so for more than five seconds on end.
-  std::string MissingInput() const;
+  std::string Shortcomings() const;
 
   double DataSeconds() const { return begin_ns && end_ns ? Seconds(*end_ns - *begin_ns) : 0.0; }
   double RealTimeFactor() const { return wall_s > 0.0 ? DataSeconds() / wall_s : 0.0; }

@@ -41,7 +41,7 @@ void BindOdometry(py::module_* module) {
            [](const OdometrySession& session) { return session.odometry().lost_at_ns(); })
       .def("remarks", &OdometrySession::Remarks)
       .def("expects_times", &OdometrySession::ExpectsTimes, py::arg("lidar"))
-      .def("missing_input", &OdometrySession::MissingInput);
+      .def("shortcomings", &OdometrySession::Shortcomings);
 }
 
 }  // namespace trajlo::python

@@ -199,12 +199,12 @@ std::vector<std::string> OdometrySession::Remarks() const {
   return remarks;
 }
 
-std::string OdometrySession::MissingInput() const {
+std::string OdometrySession::Shortcomings() const {
   RunSummary summary;
   summary.times = odometry().time_report();
   summary.points = odometry().point_counts();
   summary.flags = PoseFlags(odometry().trajectory().poses(), odometry().lost_at_ns());
-  return summary.MissingInput();
+  return summary.Shortcomings();
 }
 
 }  // namespace trajlo::python

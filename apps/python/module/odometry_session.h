@@ -52,7 +52,7 @@ class OdometrySession {
   std::vector<std::pair<py::array_t<double>, double>> Rig() const;
   /// Sentences about odd stamps and doubtful poses, and about a part of the input that is missing.
   std::vector<std::string> Remarks() const;
-  std::string MissingInput() const;
+  std::string Shortcomings() const;
 
  private:
   void RequireOpen() const;

@@ -74,9 +74,9 @@ class Odometry:
         self._warn_if_lost()
         for remark in self._session.remarks():
             warnings.warn(remark, TrajloWarning, stacklevel=2)
-        missing = self._session.missing_input()
-        if missing:
-            warnings.warn(missing, PartialInputWarning, stacklevel=2)
+        shortcomings = self._session.shortcomings()
+        if shortcomings:
+            warnings.warn(shortcomings, PartialInputWarning, stacklevel=2)
 
     def _warn_without_times(self, scan: Scan) -> None:
         if (self._told_without_times or scan.has_point_times or len(scan) == 0

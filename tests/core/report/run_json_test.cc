@@ -48,14 +48,14 @@ RunSummary ExampleSummary() {
   return s;
 }
 
-TEST(RunSummary, ManyScansThatRepeatPointsAreMissingInput) {
+TEST(RunSummary, ManyScansThatRepeatPointsAreAShortcoming) {
   RunSummary s;
   s.times.scans = s.times.until_last_point = 100;
   s.times.stuck = 5;
-  EXPECT_EQ(s.MissingInput(), "");
+  EXPECT_EQ(s.Shortcomings(), "");
   EXPECT_THAT(s.OddStamps(), HasSubstr("5 dropped (the points of a scan before"));
   s.times.stuck = 6;
-  EXPECT_THAT(s.MissingInput(), HasSubstr("6 of 100 scans have the points of a scan before"));
+  EXPECT_THAT(s.Shortcomings(), HasSubstr("6 of 100 scans have the points of a scan before"));
   EXPECT_EQ(nlohmann::json::parse(RunJson(s))["input"]["scans"]["points_repeated"], 6);
 }
 
@@ -71,7 +71,7 @@ TEST(RunSummary, APointIsDroppedForOneReason) {
 
 TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   RunSummary s;
-  EXPECT_EQ(s.MissingInput(), "");
+  EXPECT_EQ(s.Shortcomings(), "");
   s.points.received = 1000;
   s.points.too_late = 20;
   s.points.wrong_time = 20;
@@ -80,72 +80,72 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.times.assumed = 3;
   s.times.retimed = 2;
   s.times.reordered = 50;
-  EXPECT_EQ(s.MissingInput(), "");
+  EXPECT_EQ(s.Shortcomings(), "");
   s.read.points_without_time = 11;
   EXPECT_EQ(
-      s.MissingInput(),
+      s.Shortcomings(),
       "5 % of the points were dropped because of their times (20 too late, 20 of wrong stamps, "
       "11 impossible, as NaN is)");
   s.points = {};
   s.times.assumed = 4;
-  EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are not those of their stamps");
+  EXPECT_EQ(s.Shortcomings(), "the times of 6 of 100 scans are not those of their stamps");
   s.times.assumed = 0;
   s.times.moved = 4;
-  EXPECT_EQ(s.MissingInput(), "the times of 6 of 100 scans are not those of their stamps");
+  EXPECT_EQ(s.Shortcomings(), "the times of 6 of 100 scans are not those of their stamps");
   s.times.moved = 0;
   s.times.odd_point_times = 6;
-  EXPECT_EQ(s.MissingInput(),
+  EXPECT_EQ(s.Shortcomings(),
             "of 100 scans some have one time for all points, the others one for each");
   s.times.odd_point_times = 5;
   s.times.exchanged = 6;
-  EXPECT_EQ(s.MissingInput(), "6 of 100 scans may be out of order, by what they show");
+  EXPECT_EQ(s.Shortcomings(), "6 of 100 scans may be out of order, by what they show");
   s.times.exchanged = 5;
   s.times.before_first_pose = 6;
-  EXPECT_EQ(s.MissingInput(),
+  EXPECT_EQ(s.Shortcomings(),
             "the first 6 of 100 scans show nothing, or too little, of the world: the trajectory "
             "begins after them");
   s.times.before_first_pose = 5;
   s.times.until_last_point = 95;
-  EXPECT_EQ(s.MissingInput(), "");
+  EXPECT_EQ(s.Shortcomings(), "");
   s.times.until_last_point = 94;
-  EXPECT_EQ(s.MissingInput(),
+  EXPECT_EQ(s.Shortcomings(),
             "the last 6 of 100 scans have no point that can be used: the trajectory ends before "
             "them");
   s.times.until_last_point = 100;
   s.begin_ns = 0;
   s.end_ns = 10'000'000'000;
   s.times.doubtful_end_s = 0.5;
-  EXPECT_EQ(s.MissingInput(), "");
+  EXPECT_EQ(s.Shortcomings(), "");
   s.times.doubtful_end_s = 2.45;
-  EXPECT_EQ(s.MissingInput(),
+  EXPECT_EQ(s.Shortcomings(),
             "by its stamp, the last scan comes 2.5 s after the one before; nothing confirms that, "
             "and it was left out");
   s.times.doubtful_end_s = 0.0;
   s.times.doubtful_begin_s = 2.2;
-  EXPECT_EQ(s.MissingInput(),
+  EXPECT_EQ(s.Shortcomings(),
             "by its stamp, the first scan comes 2.2 s before the next; nothing confirms that, and "
             "it was left out");
   s.times.doubtful_begin_s = 0.0;
   s.read.file_is_cut = true;
   s.times.clocks_may_differ = true;
-  EXPECT_EQ(s.MissingInput(),
+  EXPECT_EQ(s.Shortcomings(),
             "a part of the file is missing or broken, and the clocks of the LiDARs may differ");
 }
 
 TEST(RunSummary, SaysThatNothingConfirmsAShortRecordingOrThatALidarDoesNotFit) {
   RunSummary s;
   s.too_short = true;
-  EXPECT_THAT(s.MissingInput(), HasSubstr("too short for a window"));
+  EXPECT_THAT(s.Shortcomings(), HasSubstr("too short for a window"));
   s.too_short = false;
   s.rig.resize(2);
   s.rig[1].lidar = 1;
   for (const RigEvidence fits :
        {RigEvidence::kNotYet, RigEvidence::kNone, RigEvidence::kConfirmed}) {
     s.rig[1].evidence = fits;
-    EXPECT_EQ(s.MissingInput(), "");
+    EXPECT_EQ(s.Shortcomings(), "");
   }
   s.rig[1].evidence = RigEvidence::kContradicted;
-  EXPECT_THAT(s.MissingInput(), HasSubstr("LiDAR 1 does not fit the others"));
+  EXPECT_THAT(s.Shortcomings(), HasSubstr("LiDAR 1 does not fit the others"));
 }
 
 TEST(RunSummary, SaysThatHardlyAPoseCanBeReliedOn) {
@@ -157,16 +157,16 @@ TEST(RunSummary, SaysThatHardlyAPoseCanBeReliedOn) {
   }
   RunSummary s;
   s.flags = PoseFlags(poses, std::nullopt);
-  EXPECT_EQ(s.MissingInput(), "");  // 0.6 of 10 s are good.
+  EXPECT_EQ(s.Shortcomings(), "");  // 0.6 of 10 s are good.
   poses[95].flags = poses[96].flags = kFlagJump;
   s.flags = PoseFlags(poses, std::nullopt);
-  EXPECT_EQ(s.MissingInput(),
+  EXPECT_EQ(s.Shortcomings(),
             "9.60 of 10.00 s have a flag (flags.csv): hardly a pose can be relied on");
   // What nothing confirms is said once.
   for (ControlPose& pose : poses) pose.flags = kFlagJump | kFlagDegenerate;
   s.flags = PoseFlags(poses, std::nullopt);
   s.too_short = true;
-  EXPECT_THAT(s.MissingInput(), Not(HasSubstr("flag")));
+  EXPECT_THAT(s.Shortcomings(), Not(HasSubstr("flag")));
 }
 
 TEST(RunSummary, SaysThatADirectionWasOpenForLong) {
@@ -176,11 +176,11 @@ TEST(RunSummary, SaysThatADirectionWasOpenForLong) {
   for (int i = 100; i < 150; ++i) poses[i].flags = poses[i + 100].flags = kFlagDegenerate;
   RunSummary s;
   s.flags = PoseFlags(poses, std::nullopt);
-  EXPECT_EQ(s.MissingInput(), "");  // Five seconds, twice.
+  EXPECT_EQ(s.Shortcomings(), "");  // Five seconds, twice.
   poses[150].flags = kFlagDegenerate;
   s.flags = PoseFlags(poses, std::nullopt);
   EXPECT_EQ(
-      s.MissingInput(),
+      s.Shortcomings(),
       "for 5.10 s on end the points left a direction open (flag degenerate): nothing tells how "
       "the body moved along or about it");
 }
@@ -191,10 +191,10 @@ TEST(RunSummary, SaysThatPosesWereInDoubtForAQuarterOfTheTime) {
   for (int i = 0; i < 24; ++i) poses[4 * i + 1].flags = kFlagJump;
   RunSummary s;
   s.flags = PoseFlags(poses, std::nullopt);
-  EXPECT_EQ(s.MissingInput(), "");
+  EXPECT_EQ(s.Shortcomings(), "");
   poses[2].flags = poses[6].flags = kFlagJump;
   s.flags = PoseFlags(poses, std::nullopt);
-  EXPECT_EQ(s.MissingInput(),
+  EXPECT_EQ(s.Shortcomings(),
             "for 2.60 of 10.00 s poses jump as no body does, or are in doubt since (flag jump)");
 }
 
@@ -204,10 +204,10 @@ TEST(RunSummary, SaysThatNothingWasMeasuredForLong) {
   RunSummary s;
   poses[2].t_ns = 9990 * kMillisecond;
   s.flags = PoseFlags(poses, std::nullopt);
-  EXPECT_EQ(s.MissingInput(), "");
+  EXPECT_EQ(s.Shortcomings(), "");
   poses[2].t_ns = 10010 * kMillisecond;
   s.flags = PoseFlags(poses, std::nullopt);
-  EXPECT_EQ(s.MissingInput(), "nothing was measured for 0.51 of 10.01 s");
+  EXPECT_EQ(s.Shortcomings(), "nothing was measured for 0.51 of 10.01 s");
 }
 
 TEST(RunSummary, CountsOddStampsByReason) {
