@@ -1,19 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/odometry.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "core/odometry/first_poses.h"
 #include "core/odometry/health/belief.h"
 #include "core/odometry/segments/join_segments.h"
 #include "core/odometry/start/initial_motion.h"
 #include "core/scans/nanoseconds.h"
 
 namespace trajlo {
+namespace {
+
+/// Most LiDARs have seen all that is around by then.
+constexpr double kFirstSweep_s = 0.1;
+
+std::size_t FirstSweep(const std::vector<SegmentCloud>& segments) {
+  const auto end = std::find_if(segments.begin(), segments.end(), [&](const SegmentCloud& segment) {
+    return Seconds(segment.end_ns - segments.front().begin_ns) >= kFirstSweep_s;
+  });
+  return static_cast<std::size_t>(end - segments.begin()) + (end == segments.end() ? 0 : 1);
+}
+
+}  // namespace
 
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
     : options_(options),
+      make_solver_(make_solver),
       threads_(options.threads),
       segments_(options.segmenter, &threads_,
                 [this](SegmentCloud segment) {
@@ -89,11 +106,9 @@ void Odometry::TakeFirst(SegmentCloud cloud) {
   if (beginning_->IsWhole(options_.initialization)) Start();
 }
 
-/// The motion during the first interval, then a map, and a window that begins where that ends. A
-/// constant twist takes the whole interval to the map, if it explains it. Else the map is of the
-/// first segment alone: points of a wrong motion would blur it, and what follows would agree with
-/// the blur. Where the recording ends within the interval, the motion must be shown, and is in
-/// doubt all the same: no window has confirmed it.
+/// The motion during the first interval, then a map, and a window that begins where that ends.
+/// Where the recording ends within the interval, the motion must be shown, and is in doubt all the
+/// same: no window has confirmed it.
 void Odometry::Start() {
   Beginning beginning = *std::exchange(beginning_, std::nullopt);
   const bool is_cut_short = !beginning.IsWhole(options_.initialization);
@@ -107,11 +122,33 @@ void Odometry::Start() {
     if (!motion.is_shown) motion.velocity.setZero();
     beginning.flags |= kFlagNoPoints;
   }
-  const bool is_whole = motion.is_steady && !segments.front().IsInstant();
-  tracker_.BeginMap(is_whole ? interval : segments.front(), beginning.T_world_begin,
-                    motion.velocity, beginning.flags);
-  if (is_whole) return;
-  for (std::size_t k = 1; k < segments.size(); ++k) Take(std::move(segments[k]));
+  const SE3& T_begin = beginning.T_world_begin;
+  std::size_t in_map = segments.size();
+  if (segments.front().IsInstant()) {
+    in_map = 1;
+    tracker_.BeginMap({segments.front()}, {T_begin, T_begin}, motion.velocity, beginning.flags);
+  } else if (motion.is_at_rest || is_cut_short || segments.size() < 2) {
+    const SE3 T_end = Plus(T_begin, motion.velocity * interval.Duration_s());
+    tracker_.BeginMap({interval}, {T_begin, T_end}, motion.velocity, beginning.flags);
+  } else {
+    if (!motion.is_steady) in_map = FirstSweep(segments);
+    BeginInMotion(segments, in_map, motion.velocity, T_begin, beginning.flags);
+  }
+  for (std::size_t k = in_map; k < segments.size(); ++k) Take(std::move(segments[k]));
+}
+
+/// A body in motion has a pose for each segment. Where these may be far off, the map is of the
+/// first sweep alone: the rest would blur it, and what follows would agree with the blur.
+void Odometry::BeginInMotion(const std::vector<SegmentCloud>& segments, std::size_t in_map,
+                             const Vector6d& velocity, const SE3& T_begin, unsigned flags) {
+  std::vector<SE3> poses = FindFirstPoses(segments, velocity, options_, make_solver_, &threads_);
+  for (SE3& T : poses) T = T_begin * T;
+  poses.resize(in_map + 1);
+  const auto end = segments.begin() + static_cast<std::ptrdiff_t>(in_map);
+  const std::vector<SegmentCloud> first(segments.begin(), end);
+  const Vector6d last_velocity =
+      Minus(poses[in_map], poses[in_map - 1]) / first.back().Duration_s();
+  tracker_.BeginMap(first, poses, last_velocity, flags);
 }
 
 /// One step of the method, in Tracker::Step; or the body is lost from view, and looked for.

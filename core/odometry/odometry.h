@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/odometry_options.h"
@@ -77,6 +79,8 @@ class Odometry {
   void Begin(Beginning beginning);
   void TakeFirst(SegmentCloud cloud);
   void Start();
+  void BeginInMotion(const std::vector<SegmentCloud>& segments, std::size_t in_map,
+                     const Vector6d& velocity, const SE3& T_begin, unsigned flags);
   // The body is followed.
   void Step(SegmentCloud cloud);
   // Nobody knows where it is.
@@ -87,6 +91,7 @@ class Odometry {
   void GetLost(const ReturnSweep& sweep);
 
   const OdometryOptions options_;
+  const WindowSolverFactory make_solver_;
   ThreadPool threads_;
   SegmentStream segments_;
   RigCalibration rig_;

@@ -44,22 +44,23 @@ Tracker::Tracker(const OdometryOptions& options, const WindowSolverFactory& make
       window_search_(options.initialization, options.map, options.registration),
       poses_(options.marginalization) {}
 
-void Tracker::BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& velocity,
-                       unsigned flags) {
-  const double duration_s = cloud.Duration_s();
-  const SE3 T_end = T_begin * se3::Exp(velocity * duration_s);
-  EnterMap(cloud, T_begin, T_end, threads_, &map_);
-  const ControlPose first = {cloud.begin_ns, T_begin, flags};
-  const bool begins_trajectory = poses_.trajectory().empty() && HasMap();
-  if (duration_s > 0.0 && begins_trajectory) {
-    poses_.Begin(first);
-  } else if (duration_s > 0.0 && !poses_.trajectory().empty()) {
-    poses_.Append(first);
+void Tracker::BeginMap(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,
+                       const Vector6d& velocity, unsigned flags) {
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    EnterMap(segments[k], poses[k], poses[k + 1], threads_, &map_);
   }
-  window_ = MakeWindow(cloud.end_ns, T_end);
+  const std::int64_t begin_ns = segments.front().begin_ns, end_ns = segments.back().end_ns;
+  if (end_ns > begin_ns && (HasMap() || !poses_.trajectory().empty())) {
+    const ControlPose first = {begin_ns, poses.front(), flags};
+    poses_.trajectory().empty() ? poses_.Begin(first) : poses_.Append(first);
+    for (std::size_t k = 1; k < segments.size(); ++k) {
+      poses_.Append({segments[k].begin_ns, poses[k], flags});
+    }
+  }
+  window_ = MakeWindow(end_ns, poses.back());
   window_.begin_flags = flags;
   window_.begin_velocity = velocity;
-  support_.Begin(cloud.end_ns);
+  support_.Begin(end_ns);
 }
 
 bool Tracker::HasMap() const { return was_held() || map_.finest().size() >= kFewestToBegin; }

@@ -28,10 +28,11 @@ class Tracker {
   Tracker(const OdometryOptions& options, const WindowSolverFactory& make_solver,
           ThreadPool* threads, RigCalibration* rig);
 
-  /// A map of one cloud alone, at `velocity` ([rho; theta] per second, body frame) from T_begin on,
-  /// and a window that begins where the cloud ends. `flags` are those of T_begin.
-  void BeginMap(const SegmentCloud& cloud, const SE3& T_begin, const Vector6d& velocity,
-                unsigned flags);
+  /// A map of the first segments alone, at `poses` in the world (one more), and a window that
+  /// begins where they end, at `velocity` ([rho; theta] per second, body frame). `flags` are those
+  /// of the first pose.
+  void BeginMap(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,
+                const Vector6d& velocity, unsigned flags);
   /// Whether there is something that points can agree with.
   bool HasMap() const;
   /// Whether points ever agreed with the map. Before, nothing is known that could be found again.

@@ -39,8 +39,7 @@ constexpr double kAtRest_m = 0.1;
 constexpr double kAtRest_rad = 0.03;
 /// Of the points that have a plane, so many are on it where a constant twist explains the interval:
 /// 0.8 to 0.9 at rest, 0.7 to 0.8 in a street and on a steady walk, 0.1 to 0.6 in a flight with
-/// quick turns. On a motorway, where few points meet again, and in a wood it is 0.3 to 0.6, too:
-/// there the first segment does as well.
+/// quick turns, on a motorway, where few points meet again, and in a wood.
 constexpr double kSteady = 0.7;
 
 /// Of the points of the second half, so many agree with a motion that is shown. In a sweep that was
@@ -227,10 +226,10 @@ FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const Initializatio
   const bool is_believed =
       way_m < kFastest_m_s * duration_s &&
       (found.agreeing > gain * at_rest.agreeing || found.votes > gain * at_rest.votes);
-  const bool hardly_moves = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
   const MotionEvidence& taken = is_believed ? found : at_rest;
   FirstMotion first;
-  first.is_steady = hardly_moves || taken.agreeing > kSteady * taken.with_plane;
+  first.is_at_rest = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
+  first.is_steady = first.is_at_rest || taken.agreeing > kSteady * taken.with_plane;
   first.is_shown = taken.agreeing > kShown * motion.points;
   if (is_believed) first.velocity = motion.tau / duration_s;
   return first;

@@ -53,9 +53,9 @@ struct InitializationOptions {
 /// The motion with which a map begins.
 struct FirstMotion {
   Vector6d velocity = Vector6d::Zero();  ///< [rho; theta] per second, body frame.
-  /// Whether it explains the whole interval: the body hardly moves, or the two halves of the
-  /// interval agree under it. Else the body accelerates or turns to and fro, or nobody knows how it
-  /// moves.
+  bool is_at_rest = true;                ///< The body hardly moves.
+  /// Whether a constant twist explains the whole interval: its two halves agree under it. Else the
+  /// body accelerates or turns to and fro, or nobody knows how it moves.
   bool is_steady = true;
   /// Whether most points of the second half agree with it. Of a single sweep hardly any do: its
   /// halves see different things.

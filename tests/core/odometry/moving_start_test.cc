@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(MovingStart, InAFlight,
                                            Start{"courtyard_os1_16", 3},
                                            Start{"hall_os1_16", 1, 2.0},
                                            Start{"hall_os1_16", 2, 2.0}, Start{"facade_os1_16", 2},
-                                           Start{"facade_os1_16", 3}));
+                                           Start{"facade_os1_16", 3}, Start{"atrium_os1_16", 2}));
 
 /// The whole recording is shorter than the first interval. The two halves of one sweep see
 /// different things, which agree with any motion that brings a few points together.

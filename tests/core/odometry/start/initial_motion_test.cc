@@ -61,20 +61,23 @@ TEST(InitialMotion, AtRestIsTakenForRest) {
   const SegmentCloud cloud = FirstInterval(Vector6d::Zero());
   const FirstMotion motion = MotionOfFirstInterval(cloud, {}, {}, {}, &threads);
   EXPECT_EQ(motion.velocity, Vector6d(Vector6d::Zero()));
+  EXPECT_TRUE(motion.is_at_rest);
   EXPECT_TRUE(motion.is_steady);
 }
 
 TEST(InitialMotion, ATurnToAndFroIsNotSteady) {
-  const auto is_steady = [](const SegmentCloud& cloud) {
+  const auto motion_of = [](const SegmentCloud& cloud) {
     ThreadPool threads(1);
-    return MotionOfFirstInterval(cloud, {}, {}, {}, &threads).is_steady;
+    return MotionOfFirstInterval(cloud, {}, {}, {}, &threads);
   };
-  EXPECT_TRUE(is_steady(FirstInterval(Twist(1.5, 0.6))));
-  EXPECT_FALSE(is_steady(FirstInterval([](double t_s) {
-    Vector6d tau = t_s * Twist(1.5, 0.0);
-    tau[4] = 0.15 * std::sin(2.0 * M_PI * 2.5 * t_s);
-    return se3::Exp(tau);
-  })));
+  const FirstMotion walk = motion_of(FirstInterval(Twist(1.5, 0.6)));
+  EXPECT_TRUE(walk.is_steady);
+  EXPECT_FALSE(walk.is_at_rest);
+  EXPECT_FALSE(motion_of(FirstInterval([](double t_s) {
+                 Vector6d tau = t_s * Twist(1.5, 0.0);
+                 tau[4] = 0.15 * std::sin(2.0 * M_PI * 2.5 * t_s);
+                 return se3::Exp(tau);
+               })).is_steady);
 }
 
 TEST(InitialMotion, IsNotLookedForWhereItIsSwitchedOff) {

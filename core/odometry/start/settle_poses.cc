@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/start/settle_poses.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/odometry/window/enter_map.h"
+#include "core/odometry/window/push_segment.h"
+#include "core/odometry/window/step_size.h"
+#include "core/odometry/window/window_equations.h"
+#include "factors/plane_distances.h"
+
+namespace trajlo {
+namespace {
+
+constexpr int kRounds = 8;
+/// Both halves would go the whole way to meet the other, and miss it by as much.
+constexpr double kDamping = 0.5;
+constexpr StepSize kSmallStep = {2e-3, 2e-4};
+/// A point this near to its plane agrees.
+constexpr double kAgreement_m = 0.05;
+
+/// A window whose segments are two halves, each of which is the other's map.
+class Halves {
+ public:
+  Halves(Window window, const MapPyramidOptions& map_options,
+         const RegistrationOptions& registration, ThreadPool* threads)
+      : window_(std::move(window)),
+        map_options_(map_options),
+        registration_(registration),
+        threads_(threads) {
+    map_options_.finest.kind = MapKind::kVoxelHash;
+  }
+
+  /// Finds planes for all points, in voxels that are `coarse` times as large.
+  void Associate(double coarse) {
+    MapPyramidOptions options = map_options_;
+    options.finest.voxel_size_m *= coarse;
+    std::array<MapPyramid, 2> maps = {MapPyramid(options), MapPyramid(options)};
+    for (int k = 0; k < window_.size(); ++k) {
+      EnterMap(window_.At(k).cloud, window_.Pose(k), window_.Pose(k + 1), threads_,
+               &maps[IsSecond(k) ? 1 : 0]);
+    }
+    for (int k = 0; k < window_.size(); ++k) {
+      Segment& segment = window_.At(k);
+      SegmentAssociation().Associate(
+          segment.cloud.registration_points, segment.cloud.lidar_origins_body_m, window_.Pose(k),
+          window_.Pose(k + 1), maps[IsSecond(k) ? 0 : 1], threads_, &segment.points);
+    }
+  }
+
+  /// A damped step of Gauss-Newton, with kernels that are `coarse` times as wide. Returns whether
+  /// it was small, or none could be made.
+  bool Step(double coarse) {
+    RegistrationOptions registration = registration_;
+    registration.kernel_m *= coarse;
+    const RegistrationNoise noise = MakeRegistrationNoise(registration);
+    std::vector<RegistrationNormalEquations> of_segments;
+    for (int k = 0; k < window_.size(); ++k) {
+      of_segments.push_back(
+          LinearizeSegment(window_.At(k).points, window_.Pose(k), window_.Pose(k + 1), noise));
+    }
+    const std::vector<SE3> before = window_.Poses();
+    WindowNormalEquations equations;
+    AssembleWindow(window_, before, of_segments, &equations);
+    const Eigen::VectorXd xi = -kDamping * equations.H.ldlt().solve(equations.g);
+    if (!xi.allFinite()) return true;
+    std::vector<SE3> after = before;
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      after[k] = Plus(before[k], xi.segment<6>(6 * static_cast<Eigen::Index>(k)));
+    }
+    window_.SetPoses(after);
+    return MeasureStep(before, after).IsWithin(kSmallStep);
+  }
+
+  int Agreeing() const {
+    int count = 0;
+    for (int k = 0; k < window_.size(); ++k) {
+      ForEachDistance(window_.At(k).points, SegmentMotion(window_.Pose(k), window_.Pose(k + 1)), 1,
+                      [&](const RegistrationPoint&, double distance_m) {
+                        count += std::abs(distance_m) < kAgreement_m ? 1 : 0;
+                      });
+    }
+    return count;
+  }
+
+  /// Moved as a whole, so that the first one stays where it was.
+  std::vector<SE3> PosesFrom(const SE3& first) const {
+    std::vector<SE3> poses = window_.Poses();
+    const SE3 move = first * poses.front().Inverse();
+    for (SE3& T : poses) T = move * T;
+    return poses;
+  }
+
+ private:
+  bool IsSecond(int k) const { return 2 * k >= window_.size(); }
+
+  Window window_;
+  MapPyramidOptions map_options_;
+  const RegistrationOptions& registration_;
+  ThreadPool* threads_;
+};
+
+}  // namespace
+
+SettledPoses SettlePoses(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,
+                         bool is_coarse, const MotionPrior& motion_prior,
+                         const MapPyramidOptions& map_options,
+                         const RegistrationOptions& registration, ThreadPool* threads) {
+  Window window = MakeWindow(segments.front().begin_ns, poses.front());
+  const Vector6d velocity = Minus(poses[1], poses[0]) / segments.front().Duration_s();
+  for (const SegmentCloud& cloud : segments) {
+    PushSegment(cloud, velocity, Deskewing::kEstimated, &window);
+  }
+  window.SetPoses(poses);
+  motion_prior.Apply(&window);
+  Halves halves(std::move(window), map_options, registration, threads);
+  for (int round = 0; round < kRounds; ++round) {
+    // 4, 4, 2, 2, 1, 1, ... times the map's voxels and the kernel.
+    const double coarse = is_coarse ? std::max(1.0, 4.0 / (1 << (round / 2))) : 1.0;
+    halves.Associate(coarse);
+    if (halves.Step(coarse) && coarse == 1.0) break;
+  }
+  halves.Associate(1.0);
+  return {halves.PosesFrom(poses.front()), halves.Agreeing()};
+}
+
+}  // namespace trajlo
