@@ -19,6 +19,7 @@ namespace {
 /// Most LiDARs have seen all that is around by then.
 constexpr double kFirstSweep_s = 0.1;
 
+/// How many segments the first sweep takes; all of them if they are shorter.
 std::size_t FirstSweep(const std::vector<SegmentCloud>& segments) {
   const auto end = std::find_if(segments.begin(), segments.end(), [&](const SegmentCloud& segment) {
     return Seconds(segment.end_ns - segments.front().begin_ns) >= kFirstSweep_s;
