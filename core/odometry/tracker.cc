@@ -50,12 +50,11 @@ void Tracker::BeginMap(const std::vector<SegmentCloud>& segments, const std::vec
     EnterMap(segments[k], poses[k], poses[k + 1], threads_, &map_);
   }
   const std::int64_t begin_ns = segments.front().begin_ns, end_ns = segments.back().end_ns;
-  if (end_ns > begin_ns && (HasMap() || !poses_.trajectory().empty())) {
-    const ControlPose first = {begin_ns, poses.front(), flags};
-    poses_.trajectory().empty() ? poses_.Begin(first) : poses_.Append(first);
-    for (std::size_t k = 1; k < segments.size(); ++k) {
-      poses_.Append({segments[k].begin_ns, poses[k], flags});
-    }
+  const ControlPose first = {begin_ns, poses.front(), flags};
+  if (end_ns > begin_ns && !poses_.trajectory().empty()) {
+    poses_.Append(first);
+  } else if (end_ns > begin_ns && HasMap()) {
+    poses_.Begin(first);
   }
   window_ = MakeWindow(end_ns, poses.back());
   window_.begin_flags = flags;

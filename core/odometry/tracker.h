@@ -29,8 +29,9 @@ class Tracker {
           ThreadPool* threads, RigCalibration* rig);
 
   /// A map of the first segments alone, at `poses` in the world (one more), and a window that
-  /// begins where they end, at `velocity` ([rho; theta] per second, body frame). `flags` are those
-  /// of the first pose.
+  /// begins where they end, at `velocity` ([rho; theta] per second, body frame). The first and the
+  /// last of the poses are of the trajectory, and have these flags: what may be wrong there shows
+  /// in the windows that follow.
   void BeginMap(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,
                 const Vector6d& velocity, unsigned flags);
   /// Whether there is something that points can agree with.
