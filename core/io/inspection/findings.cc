@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/io/format_text.h"
+#include "core/io/messages/fixed_frame.h"
 #include "core/io/scan_stamps.h"
 #include "core/io/stamp_text.h"
 #include "core/scans/nanoseconds.h"
@@ -98,6 +99,9 @@ void JudgePoints(const CloudInspection& cloud, std::vector<std::string>* finding
   }
   if (cloud.frame_ids.size() > 1) {
     findings->push_back(FormatText("%zu frame ids on one topic", cloud.frame_ids.size()));
+  }
+  for (const std::string& frame_id : cloud.frame_ids) {
+    if (const auto doubt = DoubtOfFrame(frame_id); !doubt.empty()) findings->push_back(doubt);
   }
 }
 

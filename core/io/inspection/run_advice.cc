@@ -5,6 +5,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "core/io/messages/fixed_frame.h"
+
 namespace trajlo {
 namespace {
 
@@ -163,15 +165,40 @@ void AddTimeRemarks(const CloudInspection& cloud, const std::string& config, Run
   }
 }
 
+bool IsInFixedFrame(const CloudInspection& cloud) {
+  return std::any_of(cloud.frame_ids.begin(), cloud.frame_ids.end(),
+                     [](const std::string& frame_id) { return !DoubtOfFrame(frame_id).empty(); });
+}
+
+/// The clouds to run on: a topic without points would be refused, and what is in a fixed frame is
+/// mostly another odometry's result, if there are others.
+std::vector<CloudInspection> LidarsOf(const RecordingInspection& recording) {
+  std::vector<CloudInspection> clouds, in_fixed_frame;
+  for (const CloudInspection& cloud : recording.clouds) {
+    if (cloud.points.total == 0) continue;
+    (IsInFixedFrame(cloud) ? in_fixed_frame : clouds).push_back(cloud);
+  }
+  return clouds.empty() ? in_fixed_frame : clouds;
+}
+
+/// Drivers give each LiDAR a frame of its own.
+void AddSameFrameRemarks(const std::vector<CloudInspection>& clouds, RunAdvice* advice) {
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto &a = clouds[k].frame_ids, &b = clouds[i].frame_ids;
+      if (a.empty() || a.front().empty() || a != b) continue;
+      advice->remarks.push_back(clouds[k].topic + " and " + clouds[i].topic +
+                                " have the same frame, '" + a.front() +
+                                "': they may be two clouds of one LiDAR, of which one is enough");
+    }
+  }
+}
+
 }  // namespace
 
 RunAdvice AdviseRun(const RecordingInspection& recording) {
   RunAdvice advice;
-  // A topic without points would be refused.
-  std::vector<CloudInspection> clouds;
-  for (const CloudInspection& cloud : recording.clouds) {
-    if (cloud.points.total > 0) clouds.push_back(cloud);
-  }
+  const std::vector<CloudInspection> clouds = LidarsOf(recording);
   if (clouds.empty()) return advice;
   const KnownDataset* dataset = FindDataset(clouds);
   advice.config = dataset != nullptr ? dataset->config : ConfigOf(clouds.front());
@@ -209,7 +236,11 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
   const bool placed =
       !recording.rig_config.empty() || (dataset != nullptr && dataset->has_extrinsics);
   if (!placed) AddExtrinsicRemarks(clouds, is_folder, &advice);
-  if (dataset != nullptr) AddDatasetRemark(*dataset, recording.rig_config.empty(), &advice);
+  if (dataset != nullptr) {
+    AddDatasetRemark(*dataset, recording.rig_config.empty(), &advice);
+  } else {
+    AddSameFrameRemarks(clouds, &advice);
+  }
   for (const CloudInspection& cloud : clouds) AddTimeRemarks(cloud, advice.config, &advice);
   return advice;
 }

@@ -8,6 +8,7 @@
 
 #include "core/io/errors.h"
 #include "core/io/format_text.h"
+#include "core/io/messages/fixed_frame.h"
 #include "core/io/recording/probe_times.h"
 #include "core/io/scan_decoder.h"
 #include "core/scans/nanoseconds.h"
@@ -88,7 +89,7 @@ void CloudRecording::Probe(CloudMessageReader* reader, const RecordingOptions& o
     topics.push_back(stream.topic);
     probes.emplace_back(path_, options.TimeOf(static_cast<std::size_t>(stream.lidar_id)));
   }
-  ProbeTimes(topics, reader, &probes);
+  const std::vector<std::string> frame_ids = ProbeTimes(topics, reader, &probes);
   const bool none = std::all_of(probes.begin(), probes.end(),
                                 [](const TimeProbe& one) { return one.readable() == 0; });
   if (none) {
@@ -99,10 +100,11 @@ void CloudRecording::Probe(CloudMessageReader* reader, const RecordingOptions& o
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     streams_[i].stamp_is_recorded = !probes[i].HasStamps();
     streams_[i].convention = probes[i].Decide();
-    const std::string& doubt = streams_[i].convention.doubt;
-    if (doubt.empty()) continue;
-    const Topic& topic = reader_->topics()[streams_[i].topic];
-    report_.warnings.push_back(path_.string() + ": " + topic.name + ": " + doubt);
+    const std::string& topic = reader_->topics()[streams_[i].topic].name;
+    for (const std::string& doubt : {streams_[i].convention.doubt, DoubtOfFrame(frame_ids[i])}) {
+      if (doubt.empty()) continue;
+      report_.warnings.push_back(path_.string() + ": " + topic + ": " + doubt);
+    }
   }
 }
 

@@ -5,8 +5,9 @@
 
 namespace trajlo {
 
-void ProbeTimes(const std::vector<std::size_t>& topics, CloudMessageReader* reader,
-                std::vector<TimeProbe>* probes) {
+std::vector<std::string> ProbeTimes(const std::vector<std::size_t>& topics,
+                                    CloudMessageReader* reader, std::vector<TimeProbe>* probes) {
+  std::vector<std::string> frame_ids(topics.size());
   reader->Select(topics);
   std::size_t missing = probes->size();
   CloudMessage message;
@@ -14,10 +15,12 @@ void ProbeTimes(const std::vector<std::size_t>& topics, CloudMessageReader* read
     const auto i = static_cast<std::size_t>(std::find(topics.begin(), topics.end(), message.topic) -
                                             topics.begin());
     TimeProbe& probe = (*probes)[i];
+    if (probe.readable() == 0) frame_ids[i] = message.frame_id;
     if (probe.IsComplete()) continue;
     probe.Note(probe.path(), message.table, message.stamp_ns, message.recorded_ns);
     missing -= probe.IsComplete() ? 1 : 0;
   }
+  return frame_ids;
 }
 
 }  // namespace trajlo

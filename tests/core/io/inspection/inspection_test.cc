@@ -199,6 +199,12 @@ TEST(FindingsOf, NamesWhatGoesWrong) {
   EXPECT_THAT(findings, Contains(HasSubstr("only 0 returns a message")));
 }
 
+TEST(FindingsOf, CloudsThatAreRegisteredAlreadyAreNamed) {
+  CloudInspection cloud = Cloud("/a", {});
+  cloud.frame_ids = {"camera_init"};
+  EXPECT_THAT(FindingsOf(cloud), Contains(HasSubstr("in frame 'camera_init'")));
+}
+
 TEST(FindingsOf, StampsThatMayBeInAnotherUnitAreNamed) {
   CloudInspection cloud = Cloud("/a", {});
   cloud.stamps.period_s = 100.0;
@@ -294,6 +300,25 @@ TEST(AdviseRun, SaysThatTheExtrinsicsAreThoseOfTheDatasetsRig) {
                                         HasSubstr("sensor.T_body_lidar"))));
   recording.rig_config = "in/rig.yaml";
   EXPECT_THAT(AdviseRun(recording).remarks, Not(Contains(HasSubstr("that rig"))));
+}
+
+TEST(AdviseRun, LeavesOutWhatAnotherOdometryHasRegistered) {
+  CloudInspection raw = Cloud("/points", {}), registered = Cloud("/cloud_registered", {});
+  raw.frame_ids = {"velodyne"};
+  registered.frame_ids = {"camera_init"};
+  const RunAdvice advice = AdviseRun(Recording({registered, raw}));
+  EXPECT_THAT(advice.command, HasSubstr(R"(input.topics=["/points"])"));
+  EXPECT_THAT(AdviseRun(Recording({registered})).command, HasSubstr("trajlo_run"));
+}
+
+TEST(AdviseRun, TellsOfTwoCloudsInOneFrame) {
+  CloudInspection raw = Cloud("/points", {}), filtered = Cloud("/points_filtered", {});
+  raw.frame_ids = filtered.frame_ids = {"velodyne"};
+  EXPECT_THAT(AdviseRun(Recording({raw, filtered})).remarks,
+              Contains(HasSubstr("two clouds of one LiDAR")));
+  filtered.frame_ids = {"velodyne_rear"};
+  EXPECT_THAT(AdviseRun(Recording({raw, filtered})).remarks,
+              Not(Contains(HasSubstr("two clouds of one LiDAR"))));
 }
 
 TEST(AdviseRun, WithoutCloudsThereIsNoCommand) { EXPECT_EQ(AdviseRun(Recording({})).command, ""); }

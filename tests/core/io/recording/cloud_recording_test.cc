@@ -64,6 +64,21 @@ TEST(CloudRecording, SeveralCloudsWithoutAChoiceAreAnErrorThatNamesThem) {
   EXPECT_THAT(ErrorOf(fake, options), HasSubstr("no topic '/cloud_c'"));
 }
 
+TEST(CloudRecording, CloudsThatAreRegisteredAlreadyAreTold) {
+  const auto warnings_in = [](const std::string& frame_id) {
+    auto messages = RegularMessages(6, 2 * kMs);
+    for (FakeMessage& message : messages) message.frame_id = frame_id;
+    return Open(FakeClouds({"/cloud"}, messages))->report().warnings;
+  };
+  for (const char* fixed : {"map", "/odom", "robot1/map", "camera_init", "world", "earth"}) {
+    EXPECT_THAT(warnings_in(fixed), ElementsAre(HasSubstr("does not move with the LiDAR")))
+        << fixed;
+  }
+  for (const char* moving : {"", "velodyne", "base_link", "map_lidar", "os_sensor"}) {
+    EXPECT_THAT(warnings_in(moving), IsEmpty()) << moving;
+  }
+}
+
 TEST(CloudRecording, StampsOfTheSweepsEndAreSeenByTheTimeOfRecording) {
   const auto at_end = Open(FakeClouds({"/cloud"}, RegularMessages(6, 2 * kMs)));
   EXPECT_EQ(at_end->time_convention(0).stamp_at, StampAt::kEnd);

@@ -22,6 +22,7 @@ struct FakeMessage {
   /// Name of the first coordinate; something else makes the message unreadable.
   std::string x = "x";
   bool is_empty = false;
+  std::string frame_id = "lidar";
 };
 
 inline PointTable TenPoints(const std::string& x) {
@@ -69,6 +70,7 @@ class FakeClouds final : public CloudMessageReader {
       message->topic = fake.topic;
       message->stamp_ns = fake.stamp_ns;
       message->recorded_ns = fake.recorded_ns;
+      message->frame_id = fake.frame_id;
       message->table = TenPoints(fake.x);
       if (fake.is_empty) message->table.count = 0;
       ++next_;
