@@ -166,7 +166,11 @@ void Tracker::Watch(WindowStatistics* statistics) {
   for (Segment& segment : window_.segments) segment.flags |= late;
   doubt_.Update(window_, *statistics, motion_prior_.density());
   statistics->flags |= doubt_.flags();
-  window_.segments.back().flags = statistics->flags;
+  Segment& newest = window_.segments.back();
+  newest.flags = statistics->flags;
+  // A LiDAR that is blind to one side, or sees the sky there, is carried on for a moment in every
+  // turn: not long enough for a doubt.
+  if (doubt_.flags() == 0 && SeesNothing(newest)) newest.flags &= ~kFlagNoPoints;
 }
 
 /// What left the window in doubt is estimated once more.

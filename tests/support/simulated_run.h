@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 namespace trajlo::testing {
 
 /// A simulated recording, run with the given options and the poses of its LiDARs, beside its truth.
+/// `spoil` changes each scan before it is used.
 struct SimulatedRun {
   std::vector<ControlPose> poses;
   std::vector<Matrix6d> covariances;
@@ -21,8 +23,9 @@ struct SimulatedRun {
   std::vector<SE3> truth;  ///< Of each pose, in the frame of the first one.
   std::optional<std::int64_t> lost_at_ns;
 
-  explicit SimulatedRun(const simulation::Scenario& scenario,
-                        OdometryOptions options = OdometryOptions()) {
+  explicit SimulatedRun(
+      const simulation::Scenario& scenario, OdometryOptions options = OdometryOptions(),
+      const std::function<void(LidarScan*)>& spoil = [](LidarScan*) {}) {
     const simulation::Simulator simulator(scenario);
     for (const auto& lidar : scenario.rig) {
       options.segmenter.T_body_lidar.push_back(lidar.T_body_lidar);
@@ -33,7 +36,11 @@ struct SimulatedRun {
       covariances.push_back(covariance);
     });
     odometry.OnWindow([&](const WindowStatistics& window) { windows.push_back(window); });
-    simulation::SimulateScans(simulator, 2, [&](const auto& scan) { odometry.AddScan(scan.scan); });
+    simulation::SimulateScans(simulator, 2, [&](const simulation::SimulatedScan& simulated) {
+      LidarScan scan = simulated.scan;
+      spoil(&scan);
+      odometry.AddScan(scan);
+    });
     odometry.Finish();
     lost_at_ns = odometry.lost_at_ns();
     const SE3 T_start_world = simulator.TrueWorldFromBody(poses.front().t_ns).Inverse();

@@ -32,6 +32,10 @@ bool IsUnsupported(const Window& window, const Segment& segment) {
   return on_plane < kHandful || on_plane < kAgreeing * static_cast<double>(segment.points.size());
 }
 
+bool SeesNothing(const Segment& segment) {
+  return static_cast<double>(segment.points.size()) < kHandful;
+}
+
 bool SilenceUnsupported(Window* window) {
   bool has_silenced = false;
   for (Segment& segment : window->segments) {

@@ -15,6 +15,10 @@ namespace trajlo {
 /// silent. Points without a plane say nothing: they may see a new part of the world.
 bool IsUnsupported(const Window& window, const Segment& segment);
 
+/// Whether hardly any point of a segment has a plane: it looked where nothing is, or nothing known.
+/// Unlike points that lie beside their planes, it contradicts nothing.
+bool SeesNothing(const Segment& segment);
+
 /// Takes the weight from the points of such segments. A hand before the LiDAR moves with the body:
 /// its points would hold the body still. Returns whether any of them had one. They have it again
 /// when the segment asks the map for planes again.
