@@ -27,10 +27,17 @@ std::size_t FirstSweep(const std::vector<SegmentCloud>& segments) {
   return static_cast<std::size_t>(end - segments.begin()) + (end == segments.end() ? 0 : 1);
 }
 
+/// What a LiDAR sees must stay in the map, or nothing holds a body that flies high.
+OdometryOptions WithMapInRange(OdometryOptions options) {
+  double& radius_m = options.map.finest.radius_m;
+  radius_m = std::max(radius_m, options.segmenter.max_range_m);
+  return options;
+}
+
 }  // namespace
 
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
-    : options_(options),
+    : options_(WithMapInRange(options)),
       make_solver_(make_solver),
       threads_(options.threads),
       segments_(options.segmenter, &threads_,
@@ -41,7 +48,7 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
                   tracker_.poses().HandOn();
                 }),
       rig_(options.segmenter.learn_rig),
-      tracker_(options, make_solver, &threads_, &rig_) {}
+      tracker_(options_, make_solver, &threads_, &rig_) {}
 
 void Odometry::AddScan(const LidarScan& scan) { segments_.Add(scan); }
 

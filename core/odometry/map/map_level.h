@@ -18,7 +18,7 @@ struct MapOptions {
   MapKind kind = MapKind::kVoxelHash;
   double voxel_size_m = 0.3;
   double min_point_spacing_m = 0.12;
-  double radius_m = 100.0;
+  double radius_m = 150.0;
   bool shared_planes = true;
 
   template <typename Describer>
@@ -32,7 +32,8 @@ struct MapOptions {
       "A point nearer than this to another of its voxel is not added: otherwise a sensor at "
       "rest fills the voxels with copies of the same rings.");
     d(OptionFor::kUsers, "radius_m", radius_m, Range<double>{1.0, 1e4},
-      "Voxels farther than this from the sensor are dropped.");
+      "Voxels farther than this from the sensor are dropped, unless they are within its range "
+      "(sensor.max_range_m).");
     d(OptionFor::kExperts, "shared_planes", shared_planes,
       "One plane for each eighth of a voxel, kept until there are more points around it; false "
       "fits one for every point, as the paper does.");

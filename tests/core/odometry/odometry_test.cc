@@ -180,10 +180,21 @@ TEST(Odometry, DropsTheMapThatItHasLeft) {
   SyntheticWorld world;
   world.T_world_body = ConstantTwist;
   OdometryOptions options = RoomOptions();
+  options.segmenter.max_range_m = 6.0;
   const RunResult all = RunOn(world, options, 30);
   options.map.finest.radius_m = 6.0;
   const RunResult near = RunOn(world, options, 30);
   EXPECT_LT(near.odometry->map().finest().size(), all.odometry->map().finest().size() * 3 / 4);
+}
+
+TEST(Odometry, KeepsTheMapThatIsInRange) {
+  SyntheticWorld world;
+  world.T_world_body = ConstantTwist;
+  OdometryOptions options = RoomOptions();
+  const RunResult all = RunOn(world, options, 10);
+  options.map.finest.radius_m = 1.0;
+  const RunResult near = RunOn(world, options, 10);
+  EXPECT_EQ(near.odometry->map().finest().size(), all.odometry->map().finest().size());
 }
 
 TEST(Odometry, KeepsItsOwnCopyOfTheOptions) {
