@@ -19,6 +19,11 @@ struct Entry {
   std::function<Scenario()> make;
 };
 
+SE3 OnItsSide() {
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitX())),
+          Eigen::Vector3d::Zero()};
+}
+
 const std::vector<Entry>& Entries() {
   static const std::vector<Entry> entries = {
       {"hall_os1_16", "a flying robot in a hall, at rest at first; one OS1-16",
@@ -109,6 +114,10 @@ const std::vector<Entry>& Entries() {
        [] { return FastFlight("long_facade"); }},
       {"long_facade_os1_16x2", "the same with the two OS1-16 of NTU VIRAL",
        [] { return TwoLidars(FastFlight("long_facade"), NtuViralRig()); }},
+
+      {"survey_os1_128",
+       "taking off in a city and flying 80 m above its streets; OS1-128 that lies on its side",
+       [] { return Survey("street", MakeLidar("os1_128", OnItsSide(), 512)); }},
 
       {"atrium_hover_os1_16", "rising slowly in the atrium, and hovering; one OS1-16",
        [] { return Hover("atrium"); }},

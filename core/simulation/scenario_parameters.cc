@@ -184,6 +184,7 @@ std::vector<Parameter> Parameters(Scenario* s) {
       {"motion.height_m", Real{&m.height_m, -1000.0, 1000.0}},
       {"motion.shake", Real{&m.shake, 0.0, 1000.0}},
       {"motion.max_tilt_deg", Real{&m.max_tilt_deg, 0.1, 90.0}},
+      {"motion.raised_m", Real{&m.raised_m, 0.0, 1000.0}},
       {"motion.climb_s", Seconds(&m.climb_s)},
       {"motion.landing", &m.landing},
       {"motion.turn_rate_rad_s", Real{&m.turn_rate_rad_s, -1000.0, 1000.0}},

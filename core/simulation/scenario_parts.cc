@@ -81,6 +81,14 @@ Scenario FastFlight(const std::string& scene) {
   return s;
 }
 
+Scenario Survey(const std::string& scene, const LidarConfig& lidar) {
+  Scenario s = Flight(scene, 4.0, 40.0);
+  s.rig = {lidar};
+  s.motion.raised_m = 80.0;
+  s.motion.climb_s = 20.0;
+  return s;
+}
+
 Scenario Hover(const std::string& scene) {
   Scenario s = FromRest(Flight(scene, 0.6, 60.0), 0.4, 8.0, 0.4);
   s.motion.climb_s = 12.0;

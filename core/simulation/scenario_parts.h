@@ -19,6 +19,8 @@ std::vector<LidarConfig> HiltiRig();
 Scenario Flight(const std::string& scene, double speed_mps, double duration_s);
 /// A minute of flight at 8 m/s, with the tilt that 3 m/s² take.
 Scenario FastFlight(const std::string& scene);
+/// A take-off to 80 m above what is usual in the scene, and a flight up there.
+Scenario Survey(const std::string& scene, const LidarConfig& lidar);
 /// A slow take-off, then rising and sinking by turns with hovering.
 Scenario Hover(const std::string& scene);
 /// A flight through the hall at a constant velocity in the body frame.

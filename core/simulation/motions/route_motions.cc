@@ -140,7 +140,8 @@ PoseFunction MakeFlight(const MotionConfig& config, const SceneRoutes& routes, d
                until_landed(t + kSplineReach * kDt + 0.5 * config.climb_s, 2.5);
       },
       [&](double t, double z) {
-        return floor_z + (z - floor_z) * StartRamp(config, t - kSplineReach * kDt, config.climb_s) *
+        return floor_z + (z + config.raised_m - floor_z) *
+                             StartRamp(config, t - kSplineReach * kDt, config.climb_s) *
                              until_landed(t + kSplineReach * kDt, config.climb_s);
       });
   const double s = config.shake;

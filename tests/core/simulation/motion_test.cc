@@ -209,6 +209,19 @@ TEST(Motion, ALandingEndsOnTheGround) {
   EXPECT_LT(Minus(pose(25.0), pose(24.5)).norm(), 1e-13);
 }
 
+TEST(Motion, AFlightMayBeHigherThanItsRoute) {
+  MotionConfig config;
+  config.kind = "flight";
+  config.shake = 0.0;
+  const PoseFunction usual = MakeMotion(config, Routes(), 25.0, 1);
+  config.raised_m = 50.0;
+  const PoseFunction raised = MakeMotion(config, Routes(), 25.0, 1);
+  EXPECT_NEAR(raised(0.0).t.z(), 0.3, 1e-6);
+  for (double t = 8.0; t < 25.0; t += 1.7) {
+    EXPECT_LT((raised(t).t - usual(t).t - Eigen::Vector3d(0.0, 0.0, 50.0)).norm(), 1e-9) << t;
+  }
+}
+
 TEST(Motion, AFlightKeepsToItsTilt) {
   MotionConfig config;
   config.kind = "flight";
