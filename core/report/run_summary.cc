@@ -113,11 +113,12 @@ void RunSummary::AddUnseenEnds(std::vector<std::string>* parts) const {
     parts->push_back("the first " + std::to_string(times.before_first_pose) + of_scans +
                      "show nothing, or too little, of the world" +
                      (times.Dropped() > 0 ? ", or were dropped for their stamps" : "") +
-                     ": the trajectory begins after them");
+                     ": the trajectory begins after them" + OutOfRange());
   }
   if (IsSizeable(times.Unseen())) {
     parts->push_back("the last " + std::to_string(times.Unseen()) + of_scans +
-                     "have no point that can be used: the trajectory ends before them");
+                     "have no point that can be used: the trajectory ends before them" +
+                     OutOfRange());
   }
   if (times.doubtful_begin_s > kSizeableShare * DataSeconds()) {
     parts->push_back("by its stamp, the first scan comes " + Seconds(times.doubtful_begin_s) +
@@ -127,6 +128,14 @@ void RunSummary::AddUnseenEnds(std::vector<std::string>* parts) const {
     parts->push_back("by its stamp, the last scan comes " + Seconds(times.doubtful_end_s) +
                      " after the one before; nothing confirms that, and it was left out");
   }
+}
+
+/// Why scans may show nothing: the LiDAR is farther from all things than it was said to see.
+std::string RunSummary::OutOfRange() const {
+  if (points.received == 0) return "";
+  const double share = static_cast<double>(points.too_far) / static_cast<double>(points.received);
+  if (share <= kSizeableShare) return "";
+  return FormatText(" (%.0f %% of all points are beyond sensor.max_range_m)", 100.0 * share);
 }
 
 void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {

@@ -79,6 +79,7 @@ struct RunSummary {
 
  private:
   bool IsSizeable(std::int64_t scans) const;
+  std::string OutOfRange() const;
   void AddDamage(std::vector<std::string>* parts) const;
   void AddOddTimes(std::vector<std::string>* parts) const;
   void AddUnseenEnds(std::vector<std::string>* parts) const;

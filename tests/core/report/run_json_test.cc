@@ -111,6 +111,11 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   EXPECT_EQ(s.Shortcomings(),
             "the last 6 of 100 scans have no point that can be used: the trajectory ends before "
             "them");
+  s.points.received = 1000;
+  s.points.too_far = 60;
+  EXPECT_THAT(s.Shortcomings(),
+              ::testing::EndsWith("before them (6 % of all points are beyond sensor.max_range_m)"));
+  s.points = {};
   s.times.until_last_point = 100;
   s.begin_ns = 0;
   s.end_ns = 10'000'000'000;
