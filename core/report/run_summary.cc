@@ -19,6 +19,9 @@ constexpr double kLongOpen_s = 5.0;
 /// follows a facade metres off, for a third.
 constexpr double kDoubtfulShare = 0.25;
 
+/// Nobody who carries a LiDAR about is slower.
+constexpr double kStanding_m_s = 0.1;
+
 std::string Seconds(double seconds) { return FormatText("%.1f s", seconds); }
 
 }  // namespace
@@ -148,6 +151,14 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
   if (unmeasured_s > kSizeableShare * flags.seconds()) {
     parts->push_back(
         FormatText("nothing was measured for %.2f of %.2f s", unmeasured_s, flags.seconds()));
+  }
+  if (points.sight_lines.AreCrossed() && path_length_m < kStanding_m_s * DataSeconds()) {
+    parts->push_back(
+        FormatText("the body seems to stand still, but %.0f %% of what a scan shows lies behind "
+                   "other points",
+                   100.0 * static_cast<double>(points.sight_lines.with_two_things) /
+                       static_cast<double>(points.sight_lines.asked)) +
+        ": the points are not in the LiDAR's frame, as if they were registered already");
   }
   const FlaggedPoses jump = flags.totals().at("jump"), open = flags.totals().at("degenerate");
   if (too_short) return;  // It is said above that nothing confirms the poses.

@@ -70,8 +70,9 @@ struct RunSummary {
   /// than 5 % have or seem to have the points of others, if the first or the last 5 % have no
   /// points, or if a last scan that was dropped would lengthen the recording by so much. Pauses
   /// count if they take more than 5 % of the time, flags if they take more than 95 %, poses that
-  /// jump or are in doubt since if they take more than a quarter, and a direction that the points
-  /// leave open if they do so for more than five seconds on end.
+  /// jump or are in doubt since if they take more than a quarter, a body at rest whose points
+  /// cannot have been seen from one place (SightLines), and a direction that the points leave open
+  /// if they do so for more than five seconds on end.
   std::string Shortcomings() const;
 
   double DataSeconds() const { return begin_ns && end_ns ? Seconds(*end_ns - *begin_ns) : 0.0; }

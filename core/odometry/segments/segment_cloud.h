@@ -8,6 +8,7 @@
 
 #include "core/odometry/segments/lidar_correction.h"
 #include "core/scans/nanoseconds.h"
+#include "core/scans/sight_lines.h"
 #include "manifolds/eigen_abi.h"
 
 namespace trajlo {
@@ -28,6 +29,7 @@ struct PointCounts {
   std::int64_t too_far = 0;
   std::int64_t too_late = 0;    ///< Older than what was already processed.
   std::int64_t wrong_time = 0;  ///< Of scans whose stamps are wrong, or far from their own scan.
+  SightLines sight_lines;       ///< Of a scan every two seconds.
 
   std::int64_t Kept() const {
     return received - not_finite - too_near - too_far - too_late - wrong_time;

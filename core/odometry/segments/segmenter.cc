@@ -16,6 +16,8 @@ constexpr std::int64_t kForever = std::numeric_limits<std::int64_t>::max();
 /// No segment is shorter: velocities are differences of poses over its duration.
 constexpr std::int64_t kShortest_ns = 1'000'000;
 
+constexpr std::int64_t kLookEvery_ns = 2'000'000'000;
+
 std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
 
 std::int64_t DurationNs(double seconds) { return std::max(ToNs(seconds), kShortest_ns); }
@@ -37,10 +39,12 @@ Segmenter::Segmenter(const SegmenterOptions& options)
                static_cast<std::size_t>(options.max_registration_points)),
       complete_until_ns_(kUnseen),
       newest_ns_(std::max<std::size_t>(options.T_body_lidar.size(), 1), kUnseen),
-      discrete_step_ns_(interval_ns_) {}
+      discrete_step_ns_(interval_ns_),
+      next_look_ns_(kUnseen) {}
 
 void Segmenter::AddScan(const LidarScan& scan) {
   counts_.received += static_cast<std::int64_t>(scan.points.size());
+  Look(scan);
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);
   if (lidar >= newest_ns_.size()) newest_ns_.resize(lidar + 1, kUnseen);
   has_point_times_ = has_point_times_ || scan.has_point_times;
@@ -50,6 +54,13 @@ void Segmenter::AddScan(const LidarScan& scan) {
     AddDiscrete(scan);
   }
   CompletePassed();
+}
+
+/// The first scan is left out: there, the frame of a registered cloud is the LiDAR's.
+void Segmenter::Look(const LidarScan& scan) {
+  if (scan.stamp_ns < next_look_ns_) return;
+  if (next_look_ns_ != kUnseen) counts_.sight_lines.Add(scan);
+  next_look_ns_ = scan.stamp_ns + kLookEvery_ns;
 }
 
 SE3 Segmenter::PoseOf(std::size_t lidar) const {

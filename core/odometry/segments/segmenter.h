@@ -97,6 +97,7 @@ class Segmenter {
     bool Holds(std::int64_t t_ns) const { return t_ns >= begin_ns && t_ns < end_ns; }
   };
   double ClockOf_s(std::size_t lidar) const;
+  void Look(const LidarScan& scan);
   void AddContinuous(const LidarScan& scan);
   void AddDiscrete(const LidarScan& scan);
   SE3 PoseOf(std::size_t lidar) const;
@@ -121,6 +122,7 @@ class Segmenter {
   std::optional<std::int64_t> end_ns_;   ///< End of the newest slot.
   bool has_point_times_ = false;         ///< Of any scan so far.
   std::int64_t discrete_step_ns_;        ///< From scan to scan, without point times.
+  std::int64_t next_look_ns_;            ///< See PointCounts::sight_lines.
 };
 
 }  // namespace trajlo

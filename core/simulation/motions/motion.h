@@ -43,8 +43,8 @@ struct MotionConfig {
   double shake = 1.0;
   /// flight: the roll and pitch that it never exceeds but for the shaking.
   double max_tilt_deg = 15.0;
-  /// flight: how much higher than the route of the scene, how long climbing there takes, and whether
-  /// the last seconds are a landing.
+  /// flight: how much higher than the route of the scene, how long climbing there takes, and
+  /// whether the last seconds are a landing.
   double raised_m = 0.0;
   double climb_s = 3.0;
   bool landing = false;

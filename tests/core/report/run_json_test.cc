@@ -119,6 +119,15 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.times.until_last_point = 100;
   s.begin_ns = 0;
   s.end_ns = 10'000'000'000;
+  s.points.sight_lines = {1000, 400};
+  EXPECT_THAT(s.Shortcomings(), ::testing::HasSubstr("40 % of what a scan shows lies behind"));
+  s.path_length_m = 3.0;
+  EXPECT_EQ(s.Shortcomings(), "");
+  s.path_length_m = 0.0;
+  s.points.sight_lines = {1000, 100};
+  EXPECT_EQ(s.Shortcomings(), "");
+  s.begin_ns = 0;
+  s.end_ns = 10'000'000'000;
   s.times.doubtful_end_s = 0.5;
   EXPECT_EQ(s.Shortcomings(), "");
   s.times.doubtful_end_s = 2.45;
