@@ -33,11 +33,9 @@ Feed FeedRecording(const CompareRequest& request, const std::string& name,
   summary.read = recording->report();
   summary.points = odometry->point_counts();
   summary.times = odometry->time_report();
-  if (!odometry->trajectory().empty()) {
-    summary.begin_ns = odometry->trajectory().poses().front().t_ns;
-    summary.end_ns = odometry->trajectory().poses().back().t_ns;
-  }
-  summary.flags = PoseFlags(odometry->trajectory().poses(), odometry->lost_at_ns());
+  const std::vector<ControlPose>& poses = odometry->trajectory().poses();
+  summary.TakePoses(poses);
+  summary.flags = PoseFlags(poses, odometry->lost_at_ns());
   feed.shortcomings = summary.Shortcomings();
   feed.warnings = summary.times.remarks;
   feed.warnings.insert(feed.warnings.end(), summary.read.warnings.begin(),

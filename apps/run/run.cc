@@ -154,14 +154,7 @@ void Run::Summarise() const {
                          " no pose: repeated, out of order, or without points");
   }
   const std::vector<ControlPose>& poses = odometry_.trajectory().poses();
-  if (!poses.empty()) {
-    s.begin_ns = poses.front().t_ns;
-    s.end_ns = poses.back().t_ns;
-    s.distance_to_start_m = (poses.back().T_world_body.t - poses.front().T_world_body.t).norm();
-  }
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    s.path_length_m += (poses[i].T_world_body.t - poses[i - 1].T_world_body.t).norm();
-  }
+  s.TakePoses(poses);
   s.too_short = !poses.empty() && s.windows.windows == 0;
   s.flags = Flags();
   s.rig = Rig();

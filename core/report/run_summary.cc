@@ -26,6 +26,19 @@ std::string Seconds(double seconds) { return FormatText("%.1f s", seconds); }
 
 }  // namespace
 
+void RunSummary::TakePoses(const std::vector<ControlPose>& poses) {
+  if (poses.empty()) return;
+  const auto distance_m = [](const ControlPose& a, const ControlPose& b) {
+    return (b.T_world_body.t - a.T_world_body.t).norm();
+  };
+  begin_ns = poses.front().t_ns;
+  end_ns = poses.back().t_ns;
+  distance_to_start_m = distance_m(poses.front(), poses.back());
+  path_length_m = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    path_length_m += distance_m(poses[i - 1], poses[i]);
+}
+
 std::int64_t RunSummary::NotFinite() const {
   const auto without_time = static_cast<std::int64_t>(read.points_without_time);
   // Fewer where whole scans of them were dropped.
@@ -154,11 +167,11 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
   }
   if (points.sight_lines.AreCrossed() && path_length_m < kStanding_m_s * DataSeconds()) {
     parts->push_back(
-        FormatText("the body seems to stand still, but %.0f %% of what a scan shows lies behind "
-                   "other points",
+        FormatText("the body seems to stand still, but in %.0f %% of all directions scans show one "
+                   "thing behind another",
                    100.0 * static_cast<double>(points.sight_lines.with_two_things) /
                        static_cast<double>(points.sight_lines.asked)) +
-        ": the points are not in the LiDAR's frame, as if they were registered already");
+        ": are the points in the LiDAR's own frame? Clouds that were registered already are not");
   }
   const FlaggedPoses jump = flags.totals().at("jump"), open = flags.totals().at("degenerate");
   if (too_short) return;  // It is said above that nothing confirms the poses.

@@ -56,6 +56,9 @@ struct RunSummary {
   double p95_ms = 0.0;
   double peak_memory_mb = 0.0;
 
+  /// Fills in when the poses begin and end, and how long the way is.
+  void TakePoses(const std::vector<ControlPose>& poses);
+
   /// Points that are not finite in the recording. Those without a possible time come as such
   /// points, too, and are counted by ReadReport.
   std::int64_t NotFinite() const;

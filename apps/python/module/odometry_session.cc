@@ -203,7 +203,9 @@ std::string OdometrySession::Shortcomings() const {
   RunSummary summary;
   summary.times = odometry().time_report();
   summary.points = odometry().point_counts();
-  summary.flags = PoseFlags(odometry().trajectory().poses(), odometry().lost_at_ns());
+  const std::vector<ControlPose>& poses = odometry().trajectory().poses();
+  summary.TakePoses(poses);
+  summary.flags = PoseFlags(poses, odometry().lost_at_ns());
   return summary.Shortcomings();
 }
 

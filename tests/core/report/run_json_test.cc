@@ -120,7 +120,7 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   s.begin_ns = 0;
   s.end_ns = 10'000'000'000;
   s.points.sight_lines = {1000, 400};
-  EXPECT_THAT(s.Shortcomings(), ::testing::HasSubstr("40 % of what a scan shows lies behind"));
+  EXPECT_THAT(s.Shortcomings(), ::testing::HasSubstr("in 40 % of all directions"));
   s.path_length_m = 3.0;
   EXPECT_EQ(s.Shortcomings(), "");
   s.path_length_m = 0.0;
@@ -296,6 +296,22 @@ TEST(Versions, AreKnown) {
   EXPECT_FALSE(versions.trajlo.empty());
   EXPECT_FALSE(versions.git.empty());
   EXPECT_THAT(versions.ceres, HasSubstr("2."));
+}
+
+TEST(RunSummary, TakesWhatThePosesTell) {
+  RunSummary s;
+  s.TakePoses({});
+  EXPECT_FALSE(s.begin_ns);
+  std::vector<ControlPose> poses(3);
+  poses[0].t_ns = 1'000'000'000;
+  poses[1].t_ns = 2'000'000'000;
+  poses[1].T_world_body.t = {3.0, 0.0, 0.0};
+  poses[2].t_ns = 4'000'000'000;
+  poses[2].T_world_body.t = {3.0, 4.0, 0.0};
+  s.TakePoses(poses);
+  EXPECT_DOUBLE_EQ(s.DataSeconds(), 3.0);
+  EXPECT_DOUBLE_EQ(s.path_length_m, 7.0);
+  EXPECT_DOUBLE_EQ(s.distance_to_start_m, 5.0);
 }
 
 TEST(ResourceUsage, IsPlausible) {
