@@ -169,8 +169,7 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
     parts->push_back(
         FormatText("the body seems to stand still, but in %.0f %% of all directions scans show one "
                    "thing behind another",
-                   100.0 * static_cast<double>(points.sight_lines.with_two_things) /
-                       static_cast<double>(points.sight_lines.asked)) +
+                   100.0 * points.sight_lines.Share()) +
         ": are the points in the LiDAR's own frame? Clouds that were registered already are not");
   }
   const FlaggedPoses jump = flags.totals().at("jump"), open = flags.totals().at("degenerate");

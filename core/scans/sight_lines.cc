@@ -51,9 +51,10 @@ void SightLines::Add(const LidarScan& scan) {
   }
 }
 
-bool SightLines::AreCrossed() const {
-  return asked >= kFewest &&
-         static_cast<double>(with_two_things) > kCrossed * static_cast<double>(asked);
+double SightLines::Share() const {
+  return asked > 0 ? static_cast<double>(with_two_things) / static_cast<double>(asked) : 0.0;
 }
+
+bool SightLines::AreCrossed() const { return asked >= kFewest && Share() > kCrossed; }
 
 }  // namespace trajlo

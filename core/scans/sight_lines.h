@@ -22,6 +22,8 @@ struct SightLines {
 
   /// Looks along an eighth of the directions of a scan.
   void Add(const LidarScan& scan);
+  /// The share of the directions with two things.
+  double Share() const;
   /// Whether the points cannot have been seen from the origin of their frame.
   bool AreCrossed() const;
 };

@@ -39,7 +39,7 @@ TEST(SightLines, FromItsOwnPlaceALidarSeesOneThingInADirection) {
     SightLines lines;
     lines.Add(RoomWithScreen(eye, eye));
     EXPECT_GT(lines.asked, 100);
-    EXPECT_LT(static_cast<double>(lines.with_two_things), 0.05 * static_cast<double>(lines.asked));
+    EXPECT_LT(lines.Share(), 0.05);
     EXPECT_FALSE(lines.AreCrossed());
   }
 }
