@@ -128,13 +128,14 @@ void Tracker::BelieveOrRevert(const std::vector<SE3>& predicted,
 }
 
 /// The newest segment that its points hold. One that sees a new part of the world is held as soon
-/// as the map has grown there.
+/// as the map has grown there. The first time, all must be: a LiDAR that sees a patch of the ground
+/// has points enough now and then, and nowhere that it could be found again.
 void Tracker::NoteSupport() {
-  for (std::size_t k = window_.segments.size(); k-- > 0;) {
-    if (IsUnsupported(window_, window_.segments[k])) continue;
-    support_.Supported(window_.segments[k].cloud.end_ns);
-    return;
-  }
+  const std::vector<Segment>& segments = window_.segments;
+  const auto is_held = [&](const Segment& segment) { return !IsUnsupported(window_, segment); };
+  if (!was_held() && !std::all_of(segments.begin(), segments.end(), is_held)) return;
+  const auto newest = std::find_if(segments.rbegin(), segments.rend(), is_held);
+  if (newest != segments.rend()) support_.Supported(newest->cloud.end_ns);
 }
 
 /// Side by side: neither needs the other.
@@ -219,7 +220,9 @@ void Tracker::SettleFront() {
   poses_.Leave(window_, covariance, was_held() && !doubt_.IsSure());
 }
 
+/// A body that was never held has no place that it could lose.
 void Tracker::NoteLoss(WindowStatistics* statistics) {
+  if (!was_held()) return;
   if (const auto lost_since_ns = loss_watch_.Update(*statistics)) {
     statistics->flags |= kFlagLost;
     poses_.Lose(*lost_since_ns);

@@ -53,5 +53,34 @@ TEST(PartialView, HalfASecondWithoutPointsIs) {
   EXPECT_GT(PosesWithoutPoints(run), 5);  // Of 14; the first ones are near enough.
 }
 
+// A LiDAR that hangs below a drone sees a patch of the ground before it takes off: points enough
+// now and then, and nothing of a place. That was taken for a place, which the body then had lost.
+TEST(PartialView, ALidarThatSeesAPatchOfTheGroundAtFirstLosesNoPlace) {
+  simulation::Scenario scenario = simulation::MakeScenario("survey_os1_128");
+  scenario.scene = "forest";
+  scenario.seed = 3;
+  scenario.duration_s = 10.0;
+  SE3 T_body_lidar;
+  T_body_lidar.q = Eigen::AngleAxisd(0.785, Eigen::Vector3d::UnitY());
+  scenario.rig = {simulation::MakeLidar("avia", T_body_lidar)};
+  const testing::SimulatedRun run(scenario);
+  EXPECT_FALSE(run.lost_at_ns);
+  std::size_t seen = 0;  // The first pose that sees the wood around it.
+  for (std::size_t i = 6; i < run.poses.size(); ++i) {
+    const unsigned flags = run.poses[i].flags;
+    if (run.Time_s(i) < 6.0) {
+      EXPECT_NE(flags & (kFlagDegenerate | kFlagNoPoints), 0U) << i;
+    } else if (run.Time_s(i) > 8.0) {
+      EXPECT_EQ(flags, 0U) << i;
+      if (seen == 0) seen = i;
+    }
+  }
+  // Which way it looked before, nothing tells; from there on, it is followed.
+  const SE3 moved = run.poses[seen].T_world_body.Inverse() * run.poses.back().T_world_body;
+  const SE3 truth = run.truth[seen].Inverse() * run.truth.back();
+  EXPECT_LT((moved.t - truth.t).norm(), 0.05);
+  EXPECT_GT(truth.t.norm(), 3.0);
+}
+
 }  // namespace
 }  // namespace trajlo
