@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/odometry/segments/voxel_filter.h"
+#include "core/odometry/start/coarse_to_fine.h"
 #include "core/odometry/start/motion_hypothesis.h"
 #include "core/scans/median.h"
 
@@ -112,8 +113,7 @@ class FirstInterval {
   /// The motion near `tau` by rounds of registration; the first ones see coarsely.
   Vector6d Refine(Vector6d tau, int first_round, int last_round) const {
     for (int round = first_round; round < last_round; ++round) {
-      // 4, 4, 2, 2, 1, 1, ... times the map's voxels and the kernel.
-      const double coarse = std::max(1.0, 4.0 / (1 << (round / 2)));
+      const double coarse = Coarseness(round);
       const RegistrationNormalEquations equations = Linearize(tau, coarse);
       Vector6d prior = Vector6d::Constant(1.0 / (kPriorSigma_m * kPriorSigma_m));
       prior.tail<3>().setConstant(1.0 / (kPriorSigma_rad * kPriorSigma_rad));
@@ -139,13 +139,9 @@ class FirstInterval {
 
  private:
   RegistrationNormalEquations Linearize(const Vector6d& tau, double coarse) const {
-    MapPyramidOptions map = map_options_;
-    map.finest.voxel_size_m *= coarse;
-    RegistrationOptions registration = registration_;
-    registration.kernel_m *= coarse;
-    const RegistrationNoise noise = MakeRegistrationNoise(registration);
     const MotionHypothesis hypothesis(first_half_, second_half_, cloud_.lidar_origins_body_m, tau,
-                                      map, threads_);
+                                      Coarsened(map_options_, coarse), threads_);
+    const RegistrationNoise noise = CoarsenedNoise(registration_, coarse);
     return direction_ ? hypothesis.LinearizeAlong(*direction_, noise) : hypothesis.Linearize(noise);
   }
 

@@ -2,11 +2,11 @@
 #include "core/odometry/start/settle_poses.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "core/odometry/start/coarse_to_fine.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/push_segment.h"
 #include "core/odometry/window/step_size.h"
@@ -37,8 +37,7 @@ class Halves {
 
   /// Finds planes for all points, in voxels that are `coarse` times as large.
   void Associate(double coarse) {
-    MapPyramidOptions options = map_options_;
-    options.finest.voxel_size_m *= coarse;
+    const MapPyramidOptions options = Coarsened(map_options_, coarse);
     std::array<MapPyramid, 2> maps = {MapPyramid(options), MapPyramid(options)};
     for (int k = 0; k < window_.size(); ++k) {
       EnterMap(window_.At(k).cloud, window_.Pose(k), window_.Pose(k + 1), threads_,
@@ -55,9 +54,7 @@ class Halves {
   /// A damped step of Gauss-Newton, with kernels that are `coarse` times as wide. Returns whether
   /// it was small, or none could be made.
   bool Step(double coarse) {
-    RegistrationOptions registration = registration_;
-    registration.kernel_m *= coarse;
-    const RegistrationNoise noise = MakeRegistrationNoise(registration);
+    const RegistrationNoise noise = CoarsenedNoise(registration_, coarse);
     std::vector<RegistrationNormalEquations> of_segments;
     for (int k = 0; k < window_.size(); ++k) {
       of_segments.push_back(
@@ -119,8 +116,7 @@ SettledPoses SettlePoses(const std::vector<SegmentCloud>& segments, const std::v
   motion_prior.Apply(&window);
   Halves halves(std::move(window), map_options, registration, threads);
   for (int round = 0; round < kRounds; ++round) {
-    // 4, 4, 2, 2, 1, 1, ... times the map's voxels and the kernel.
-    const double coarse = is_coarse ? std::max(1.0, 4.0 / (1 << (round / 2))) : 1.0;
+    const double coarse = is_coarse ? Coarseness(round) : 1.0;
     halves.Associate(coarse);
     if (halves.Step(coarse) && coarse == 1.0) break;
   }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+#include "core/odometry/map/map_pyramid.h"
+#include "core/odometry/weights/registration_options.h"
+
+namespace trajlo {
+
+/// How much wider voxels and kernel are in a round of a registration that begins far off:
+/// 4, 4, 2, 2, 1, 1, ... times those of the options.
+inline double Coarseness(int round) { return std::max(1.0, 4.0 / (1 << (round / 2))); }
+
+inline MapPyramidOptions Coarsened(MapPyramidOptions map, double coarse) {
+  map.finest.voxel_size_m *= coarse;
+  return map;
+}
+
+inline RegistrationNoise CoarsenedNoise(RegistrationOptions registration, double coarse) {
+  registration.kernel_m *= coarse;
+  return MakeRegistrationNoise(registration);
+}
+
+}  // namespace trajlo
