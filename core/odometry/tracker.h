@@ -36,7 +36,8 @@ class Tracker {
                 const Vector6d& velocity, unsigned flags);
   /// Whether there is something that points can agree with.
   bool HasMap() const;
-  /// Whether points ever agreed with the map. Before, nothing is known that could be found again.
+  /// Whether the points ever held all segments of a window. Before, nothing is known that could be
+  /// lost, or found again.
   bool was_held() const { return support_.was_supported(); }
 
   /// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.

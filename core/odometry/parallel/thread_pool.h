@@ -12,7 +12,7 @@ namespace trajlo {
 /// source includes: each file that does takes a second longer to compile.
 ///
 /// A pool of our own whose threads wait actively, for 0.05 to 1 ms, was no faster: two threads took
-/// 0.74 to 0.79 of the time of one (hall_os1_16), and 0.76 here. What is left is what one thread
+/// 0.74 to 0.79 of the time of one (hall_os1_16), and 0.76 with oneTBB. The rest is what one thread
 /// does alone, not the waking.
 class ThreadPool {
  public:
