@@ -2,7 +2,7 @@
 """results.csv, the tables, and one self-contained page about a batch."""
 from trajlo_batch import results, table_formats, tables
 from trajlo_batch.published import published_of
-from trajlo_report import page
+from trajlo_report import names, page
 from trajlo_report.files import to_csv, write_atomically
 
 # What the page shows of a run's figures, in this order.
@@ -58,17 +58,32 @@ def anchor(folder):
 
 
 def summary(rows):
-    counts, doubts = {}, {}
+    counts, remarks = {}, {}
     for row in rows:
         counts[row["result"]] = counts.get(row["result"], 0) + 1
-        doubts[row["result"]] = doubts.get(row["result"], 0) + results.in_doubt(row)
+        found = remarks.setdefault(row["result"], {})
+        for remark, applies in (("with warnings about the input", results.in_doubt(row)),
+                                ("outdated", bool(row.get("outdated")))):
+            found[remark] = found.get(remark, 0) + applies
     words = {results.OK: "ended well", results.FAILED: "with an x",
              results.UNFINISHED: "not finished", results.NO_TRUTH: "without truth",
              results.NOT_ASKED: "not asked for"}
-    return ", ".join(
-        f"{count} {words[result]}" + (f" (of which {doubts[result]} with warnings about the input)"
-                                      if doubts[result] else "")
-        for result, count in counts.items())
+    texts = []
+    for result, count in counts.items():
+        said = ", ".join(f"{some} {remark}" for remark, some in remarks[result].items() if some)
+        texts.append(f"{count} {words[result]}" + (f" (of which {said})" if said else ""))
+    return ", ".join(texts)
+
+
+def about_outdated(rows):
+    """What has changed since the runs, and what to do about it; nothing if nothing has."""
+    old = [row for row in rows if row["outdated"]]
+    if not old:
+        return ""
+    changed = sorted({name for row in old for name in row["outdated"].split(", ")})
+    builds = (" --any-version accepts other builds." if {"program", "simulator"} & {*changed} else "")
+    return (f"{len(old)} of {names.counted(len(rows), 'run')} outdated: the {', '.join(changed)} changed "
+            f"since. Without --report and --only they are repeated.{builds}")
 
 
 def write_report(plan, asked=None):
@@ -87,6 +102,7 @@ def write_report(plan, asked=None):
              if row["result"] not in (results.UNFINISHED, results.NOT_ASKED)]
     text = page.render(
         "batch.html", title=suite.title, suite=suite, summary=summary(rows),
+        outdated=about_outdated(rows),
         tables=[table for _, table in found], count=len(rows), runs=ended, anchor=anchor,
         heading=table_formats.heading, shown=table_formats.shown, good=tables.GOOD,
         metric=tables.METRICS.get(suite.metric, suite.metric),

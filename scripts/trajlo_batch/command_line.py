@@ -102,7 +102,8 @@ def say_missing(suite, missing):
 
 def show_list(plan):
     for number, run in enumerate(plan.runs, 1):
-        why = f" ({', '.join(run.changes)} changed)" if run.changes else ""
+        changes = run.changes or run.outdated
+        why = f" ({', '.join(changes)} changed)" if changes else ""
         ended = results.ended(plan.places.output / run.folder) if run.state == DONE else None
         failed = ended and ended.result == results.FAILED
         print(f"{number:4} {results.FAILED if failed else run.state:8} {plan.suite.described(run)}"

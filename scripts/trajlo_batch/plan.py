@@ -24,6 +24,7 @@ class Run:
     options: str       # the effective configuration, as trajlo_run shows it
     state: str = MISSING
     changes: tuple = ()
+    outdated: tuple = ()  # what the result that is there was made with and is otherwise now
 
     @property
     def folder(self):
@@ -111,6 +112,19 @@ def differences(old, new, any_version):
                         if key not in ignored and old.get(key) != new.get(key)))
 
 
+def evaluation_changed(folder, evaluation, any_version):
+    """Whether a run was evaluated in another way than is asked for now."""
+    old = read_json_if(folder / "evaluation_job.json")
+    if not old or not (folder / "evaluation_status.json").is_file():
+        return False
+
+    def compared(job):
+        program = None if any_version else job["program"]["digest"]
+        return jsonable({**job, "program": program})
+
+    return compared(old) != compared(evaluation)
+
+
 def run_name(configuration, sequence):
     """What --only matches, and the run's folder."""
     return f"{configuration.name}/{sequence.name}"
@@ -138,6 +152,9 @@ def make_plan(suite, places, any_version=False, retry=False):
         status = read_json_if(places.output / run.folder / "status.json")
         if status:
             run.changes = differences(status["depends_on"], run.job["depends_on"], any_version)
+            run.outdated = run.changes
+            if evaluation_changed(places.output / run.folder, run.job["evaluation"], any_version):
+                run.outdated += ("evaluation",)
             if retry and status["exit_code"] not in (0, 3):
                 run.changes += ("it failed",)
             run.state = CHANGED if run.changes else DONE
@@ -196,6 +213,7 @@ def write_plan(plan, keep_recordings):
         if run.state == CHANGED:
             set_aside(plan.places, run)
             run.state = MISSING
+        run.outdated = ()  # is done again
         folder = output / run.folder
         job = {key: value for key, value in run.job.items() if key != "evaluation"}
         if run.state != DONE:

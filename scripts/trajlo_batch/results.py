@@ -17,6 +17,7 @@ PARTIAL = 3  # exit code of runs whose input was damaged, left out in part or in
 USABLE = (0, PARTIAL)  # exit codes of runs whose whole recording was processed
 OK, FAILED, UNFINISHED, NO_TRUTH = "ok", "x", "not finished", "no truth"
 DETERMINED = "ate_rotation_determined"
+FILLED_IN = ("sensor.T_body_lidar", "input.topics")  # options that the job of a run may say
 NOT_ASKED = "not asked for"  # was not done, and the batch was told to do others only
 
 
@@ -28,16 +29,27 @@ def flatten(tree, prefix=""):
             yield f"{prefix}{key}", value
 
 
-def varied_options(runs):
-    """For each run the options in which the runs differ, from the effective configurations."""
-    parsed = {}
-    for run in runs:
+def own_options(folder, asked):
+    """The options that a run was made with, of those that are asked for now."""
+    file = folder / "result" / "config.yaml"
+    own = dict(flatten(yaml.safe_load(file.read_text()) or {})) if file.is_file() else {}
+    # What the job fills in is not among those that are asked for.
+    return {key: value if key in FILLED_IN else own.get(key) for key, value in asked.items()}
+
+
+def varied_options(plan):
+    """Options in which runs differ, or that have changed since; and for each run its values."""
+    parsed, of_run = {}, {}
+    for run in plan.runs:
         if run.options not in parsed:
             parsed[run.options] = dict(flatten(yaml.safe_load(run.options)))
-    keys = {key for options in parsed.values() for key in options}
-    keys = sorted(key for key in keys
-                  if len({str(options.get(key)) for options in parsed.values()}) > 1)
-    return keys, {run.folder: [parsed[run.options].get(key) for key in keys] for run in runs}
+        asked = parsed[run.options]
+        of_run[run.folder] = (own_options(plan.places.output / run.folder, asked)
+                              if run.outdated else asked)
+    known = [*parsed.values(), *of_run.values()]
+    keys = sorted(key for key in {key for options in known for key in options}
+                  if len({str(options.get(key)) for options in known}) > 1)
+    return keys, {folder: [options.get(key) for key in keys] for folder, options in of_run.items()}
 
 
 def dig(tree, *keys):
@@ -172,7 +184,7 @@ def cpu_per_data_second(cpu_s, data_s):
 def collect(plan, asked=None):
     """The rows of all planned runs; all rows have the same keys in the same order. `asked` holds
     the folders of those that were to be done, if not all were."""
-    keys, varied = varied_options(plan.runs)
+    keys, varied = varied_options(plan)
     rows = []
     for run in plan.runs:
         folder = plan.places.output / run.folder
@@ -187,7 +199,8 @@ def collect(plan, asked=None):
             "sequence": run.sequence.name, "group": run.sequence.group,
             "seed": run.sequence.seed or None, "degenerate": run.sequence.degenerate,
             **{key: value for key, value in zip(keys, varied[run.folder])},
-            "result": result, "reason": reason, "exit_code": status.get("exit_code"),
+            "result": result, "reason": reason, "outdated": ", ".join(run.outdated),
+            "exit_code": status.get("exit_code"),
             "diverged": bool(diverged) if metrics["pairs"] is not None else None,
             **metrics, **values,
             "cpu_s_per_data_second": cpu_per_data_second(status.get("cpu_s"), values["data_s"]),

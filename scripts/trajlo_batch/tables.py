@@ -9,7 +9,7 @@ import statistics
 from trajlo_batch import results, table_formats
 from trajlo_report import names
 
-X, ABSENT, PENDING, DOUBT = "x", "-", "…", "!"
+X, ABSENT, PENDING, DOUBT, OUTDATED = "x", "-", "…", "!", "outdated"
 GOOD = (results.OK, results.NO_TRUTH)
 # What readers see in the place of a column of results.csv.
 METRICS = {"ate_rmse_m": "absolute position error, RMSE [m]",
@@ -65,6 +65,9 @@ def result_cell(rows, suite, decimals):
         return Cell(ABSENT)
     note = "; ".join(f"{row['sequence']}: {row['result']}, {row['reason']}"
                      for row in rows if row["result"] not in GOOD or results.in_doubt(row))
+    old = [row for row in rows if row.get("outdated")]
+    note = "; ".join([*([note] if note else []), *(
+        f"{row['sequence']}: {OUTDATED}, changed since: {row['outdated']}" for row in old)])
     folder = rows[0]["folder"]
     values = [row[suite.metric] for row in rows
               if row["result"] in GOOD and row.get(suite.metric) is not None]
@@ -74,6 +77,7 @@ def result_cell(rows, suite, decimals):
         return Cell(PENDING if pending else ABSENT, note=note)
     ended = len(values) + failed
     share = f" ({ended} of {len(rows)})" if ended < len(rows) else ""
+    share += f" ({OUTDATED})" if len(old) == len(rows) else f" ({len(old)} {OUTDATED})" if old else ""
     if not values:
         return Cell(f"{X}{share}", note=note, folder=folder)
     value = {"median": statistics.median, "mean": statistics.fmean, "max": max}[
@@ -87,7 +91,7 @@ def result_cell(rows, suite, decimals):
     if failed:
         text += f" ({failed} {X})"
     # One that fails on a seed is not the best, however good the others are; of one that has not
-    # ended on all of them nobody knows yet.
+    # ended on all of them, or with what is asked for now, nobody knows yet.
     return Cell(text + share, math.nan if failed or share else value, note=note, folder=folder)
 
 
@@ -178,6 +182,13 @@ def doubt_note(lines):
             "damaged, left out or in doubt; results.csv says which."] if marked else []
 
 
+def outdated_note(lines):
+    """What that word at a value means, where it is."""
+    marked = any(OUTDATED in cell.text for line in lines if line.ours for cell in line.cells)
+    return [f"{OUTDATED}: what the run was made with has changed since, as results.csv says in the "
+            "column of that name; such values are not compared."] if marked else []
+
+
 def our_lines(suite, rows, columns, decimals, average=""):
     lines, groups = [], {sequence.group for sequence in suite.sequences}
     seeds = seeds_of_cells(rows)
@@ -207,7 +218,7 @@ def compared_table(suite, rows, published):
     lines.sort(key=lambda line: order.index(line.category))
     mark(lines, suite.metric)
     notes = [f"Rows without * are from {published.source}.", *published.notes]
-    notes += doubt_note(lines)
+    notes += doubt_note(lines) + outdated_note(lines)
     table = Table(published.caption, list(published.columns), lines, notes)
     if "AVG" in table.columns:
         groups = {sequence.group for sequence in suite.sequences}
@@ -229,7 +240,7 @@ def suite_table(suite, rows, marked=True):
     if marked and len(lines) > 1:
         mark(lines, suite.metric)
     notes = [f"{group}: degenerate by construction ({why})" for group, why in degenerate.items()]
-    notes += seeds_note(suite, rows) + doubt_note(lines)
+    notes += seeds_note(suite, rows) + doubt_note(lines) + outdated_note(lines)
     table = Table(f"{suite.title}: {METRICS.get(suite.metric, suite.metric)}", groups, lines, notes,
                   transposed=suite.rows == "sequences")
     if suite.average:
@@ -245,5 +256,6 @@ def speed_table(suite, rows):
     threads = names.counted(suite.threads, "thread")
     table.caption = f"{suite.title}: processor time for a second of data [s], {threads} a run"
     table.notes = ["Below 1, one core keeps up with the sensor. Reading the recording and writing "
-                   "the results are counted.", *doubt_note(table.lines)]
+                   "the results are counted.", *doubt_note(table.lines),
+                   *outdated_note(table.lines)]
     return table

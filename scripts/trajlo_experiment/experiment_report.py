@@ -4,7 +4,7 @@ import math
 import re
 
 from trajlo_batch import command_line, results
-from trajlo_batch.batch_report import summary
+from trajlo_batch.batch_report import about_outdated, summary
 from trajlo_experiment import analysis, conclusion, figures, figures_tradeoff, table
 from trajlo_experiment.findings import Findings, level_text
 from trajlo_report import page
@@ -67,15 +67,21 @@ def failure_lines(rows):
     """Why runs failed, and which; reasons that differ in their numbers only are one."""
     counts = {}
     for row in rows:
-        if row["result"] in (results.FAILED, results.UNFINISHED):
+        if row["result"] in (results.FAILED, results.UNFINISHED) and not row["outdated"]:
             reason = NUMBER.sub("…", f"{row['result']}: {row['reason']}")
             counts.setdefault(reason, []).append(row["row"])
     return sorted(counts.items(), key=lambda item: -len(item[1]))
 
 
+def reason_of(row):
+    if row["outdated"]:
+        return f"outdated: {row['outdated']} changed since"
+    return "" if row["result"] == results.OK else row["reason"]
+
+
 def run_lines(findings, rows):
     return [{"levels": levels_of(findings, row), "marks": row["marks"],
-             "reason": "" if row["result"] == results.OK else row["reason"],
+             "reason": reason_of(row),
              "values": [row.get(name) for name in RUN_COLUMNS]} for row in rows]
 
 
@@ -107,7 +113,8 @@ def write_report(plan):
         count=len(rows), design=design_text(study), recordings=len(study.base_sequences),
         findings=findings, best=best_settings(findings), front=list(front_lines(findings)),
         failures=failure_lines(rows), conclusions=conclusion.sentences(findings),
-        warnings=conclusion.warnings(plan), caution=conclusion.caution(findings),
+        warnings=[text for text in (*conclusion.warnings(plan), about_outdated(rows)) if text],
+        caution=conclusion.caution(findings),
         figures=drawn,
         runs=run_lines(findings, rows), run_columns=RUN_COLUMNS, shown=shown, programs=programs,
         missing=plan.missing, text=study.file.read_text(),

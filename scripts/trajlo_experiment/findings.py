@@ -31,7 +31,9 @@ class Bin:
 class Findings:
     def __init__(self, study, rows):
         self.study = study
-        self.rows = [row for row in rows if row["result"] != results.UNFINISHED]
+        # What was made with other options than the rest is not compared with it.
+        self.rows = [row for row in rows
+                     if row["result"] != results.UNFINISHED and not row["outdated"]]
         self.metric = study.metric
         self.groups = list(dict.fromkeys(row["group"] for row in self.rows))
         self.design = [row for row in self.rows if row["in_design"]]

@@ -2,10 +2,12 @@
 """Figures and pages of experiments show what happened, also what failed."""
 import math
 import re
+import subprocess
 import types
 import unittest
 
 from pretended_experiment import PretendedTest
+from support import SCRIPTS
 
 from trajlo_batch import plan
 from trajlo_experiment import (conclusion, experiment_report, figures_heat, figures_sensitivity,
@@ -289,6 +291,21 @@ class FiguresTest(PretendedTest):
         rows = experiment_report.write_report(batch)
         self.assertEqual(experiment_report.summary(rows), "13 ended well, 29 not finished")
         self.assertTrue((self.places.output / "figures" / "heat_map.svg").is_file())
+
+    def test_runs_of_other_options_are_not_compared_and_that_is_said(self):
+        self.finish(self.batch(GRID), bowl)
+        batch = self.batch(GRID + "defaults: {set: {window.segments: 9}}\n")
+        rows = experiment_report.write_report(batch)
+        self.assertEqual({row["outdated"] for row in rows}, {"options"})
+        self.assertEqual(Findings(batch.suite, rows).rows, [])
+        page = (self.places.output / "report.html").read_text()
+        self.assertIn("42 of 42 runs outdated: the options changed since", page)
+        self.assertNotIn("<h2>Best settings</h2>", page)
+        done = subprocess.run(
+            [SCRIPTS / "experiment", batch.suite.file, "--build", self.places.build, "--output",
+             self.places.output, "--report"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("42 of 42 runs outdated", done.stdout)
 
     def test_an_experiment_that_has_not_begun_has_a_page(self):
         batch = self.batch(GRID)

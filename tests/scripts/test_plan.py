@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A plan knows what is done, what has changed, and never overwrites a result."""
+import csv
 import dataclasses
 import io
 import json
@@ -89,6 +90,80 @@ class OnlyTest(PlannedTest):
         self.assertEqual(self.batch("--list").stdout,
                          "   1 done     plain/hall_os1_16-seed1\n"
                          "   2 x        varied/hall_os1_16-seed1 (timeout)\n")
+
+
+class OutdatedTest(PlannedTest):
+    """What scripts/batch says about results whose options have changed since."""
+
+    def setUp(self):
+        super().setUp()
+        # Shows what --set says, as the real one does.
+        self.executable("build/apps/trajlo_run", """#!/bin/sh
+segments=4
+for argument in "$@"; do
+  case "$argument" in --set=window.segments=*) segments="${argument##*=}" ;; esac
+done
+printf 'window: {segments: %s}\\nsensor: {T_body_lidar: []}\\n' $segments
+""")
+        batch = self.plan()
+        self.finish(batch)
+        for run, segments in zip(batch.runs, (4, 3)):
+            folder = f"out/{run.folder}"
+            self.write(f"{folder}/evaluation_status.json", '{"exit_code": 0, "reason": ""}')
+            self.write(f"{folder}/evaluation/evaluation.json", json.dumps(
+                {"estimates": [{"pairs": 2, "ate": {"translation_m": {"rmse": 0.25}}}]}))
+            self.write(f"{folder}/result/config.yaml",
+                       f"window: {{segments: {segments}}}\nsensor: {{T_body_lidar: [1, 2]}}\n")
+
+    def report(self, text, *arguments):
+        done = subprocess.run(
+            [SCRIPTS / "batch", self.write("s.yaml", text), "--build", self.places.build, "--output",
+             self.places.output, "--report", *arguments], capture_output=True, text=True, check=False)
+        lines = list(csv.DictReader(io.StringIO((self.places.output / "results.csv").read_text())))
+        return done, lines, (self.places.output / "table.md").read_text()
+
+    def test_results_of_what_is_asked_for_have_no_mark(self):
+        done, lines, table = self.report(SUITE)
+        self.assertEqual((done.returncode, done.stdout.splitlines()[0]), (0, "2 runs: 2 ended well"))
+        self.assertEqual([line["outdated"] for line in lines], ["", ""])
+        self.assertNotIn("outdated", table)
+
+    def test_those_of_other_options_are_marked_and_keep_their_own_options(self):
+        done, lines, table = self.report(SUITE.replace("segments: 3", "segments: 7"))
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("2 runs: 2 ended well (of which 1 outdated)\n1 of 2 runs outdated: the options "
+                      "changed since.", done.stdout)
+        self.assertEqual([(line["outdated"], line["window.segments"]) for line in lines],
+                         [("", "4"), ("options", "3")])
+        self.assertNotIn("sensor.T_body_lidar", lines[0])
+        self.assertIn("| **0.2500** | 0.2500 (outdated) |", table)
+        self.assertIn("- outdated: what the run was made with has changed since", table)
+        self.assertIn("outdated: options changed since",
+                      (self.places.output / "report.html").read_text())
+
+    def test_those_that_only_leaves_out_are_marked_and_do_not_decide_how_the_batch_ends(self):
+        changed = SUITE.replace("segments: 3", "segments: 7")
+        done, _, table = self.report(changed, "--only", "plain/*")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("1 of 2 runs outdated", done.stdout)
+        self.assertIn("0.2500 (outdated)", table)
+
+    def test_an_option_that_changed_for_all_runs_has_a_column(self):
+        _, lines, _ = self.report(SUITE.split("configurations")[0] + "configurations:\n  - name: plain\n"
+                                  "    set: {window.segments: 9}\n")
+        self.assertEqual([line["window.segments"] for line in lines], ["4"])
+
+    def test_another_evaluation_and_another_build_are_changes_as_well(self):
+        other = SUITE.replace("hall_os1_16", "hall_os1_16\n    evaluate: {alignment: origin}")
+        done, lines, _ = self.report(other)
+        self.assertEqual((done.returncode, lines[0]["outdated"]), (3, "evaluation"))
+        for name in ("trajlo_run", "trajlo_evaluate"):
+            path = self.places.build / "apps" / name
+            path.write_text(path.read_text() + "# rebuilt\n")
+        done, lines, _ = self.report(SUITE)
+        self.assertEqual((done.returncode, lines[0]["outdated"]), (3, "program, evaluation"))
+        self.assertIn("--any-version accepts other builds", done.stdout)
+        self.assertEqual(self.report(SUITE, "--any-version")[0].returncode, 0)
 
 
 class PlanTest(PlannedTest):
