@@ -15,9 +15,21 @@ from trajlo_report import names
 LISTED = 3  # of settings that tie
 
 
+def other_options(findings, point):
+    """What a setting sets besides the levels of factors: {option: text}."""
+    of_factors = {key for name, level in point.levels.items()
+                  for key in findings.study.factor(name).options(level)}
+    return {key: text for key, text in point.settings.items() if key not in of_factors}
+
+
 def setting_text(findings, row):
-    return ", ".join(level_of(factor, row[factor.name]) for factor in findings.study.factors
-                     if row[factor.name] is not None)
+    """The names of a setting but that of the reference, its values, and its other options."""
+    point = next(point for point in findings.study.points if point.name == row["point"])
+    values = [level_of(factor, row[factor.name]) for factor in findings.study.factors
+              if row[factor.name] is not None]
+    values += [f"{key} = {text}" for key, text in other_options(findings, point).items()]
+    marks = [f"“{mark}”" for mark in analysis.marks_of(row) if mark != findings.study.reference]
+    return ": ".join(text for text in (", ".join(marks), ", ".join(values)) if text)
 
 
 def parts_of(label):

@@ -4,12 +4,14 @@ import math
 
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullLocator
+from matplotlib.transforms import ScaledTranslation
 
 from trajlo_experiment.factors import LOG
 from trajlo_report import theme
 from trajlo_report.log_axis import plain_log
 
 MARKERS = "D*sP^v"  # of marked settings
+MARK_PT = 6.5       # from one to the next beside it
 SHAPES = "os^vDP"   # of scenarios
 
 
@@ -28,6 +30,18 @@ def mark_style(findings, name):
     shape = MARKERS[list(findings.marks).index(name) % len(MARKERS)]
     return {"ls": "", "marker": shape, "ms": 8.5 if shape == "*" else 5.5,
             "color": theme.METHODS[1], "mec": theme.PANEL, "mew": 0.7}
+
+
+def draw_marks(axes, findings, places, transform=None, **how):
+    """Marked settings, {name: (x, y)}; those at the same place lie beside each other."""
+    count = {}
+    for name, (x, y) in places.items():
+        before = count.get((x, y), 0)
+        count[x, y] = before + 1
+        beside = ScaledTranslation(-MARK_PT * before / 72, 0, axes.figure.dpi_scale_trans)
+        # Not with axes.plot, which would take the shift for a change of the axes.
+        axes.add_artist(Line2D([x], [y], transform=(transform or axes.transData) + beside, zorder=5,
+                               **how, **mark_style(findings, name)))
 
 
 def mark_handles(findings, names):

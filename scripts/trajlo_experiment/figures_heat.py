@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 
 from trajlo_experiment import analysis
-from trajlo_experiment.drawing import below, mark_handles, mark_style, soften
+from trajlo_experiment.drawing import below, draw_marks, mark_handles, soften
 from trajlo_experiment.factors import LOG
 from trajlo_experiment.findings import level_text, place_among
 from trajlo_report import names, theme
@@ -69,9 +69,9 @@ def draw_cells(axes, ratios, texts, failed, norm):
                                      edgecolor=theme.TEXT))
 
 
-def draw_marks(axes, findings, across, upwards, columns, lines, rows_factor, level):
+def mark_cells(axes, findings, across, upwards, columns, lines, rows_factor, level):
     """Marked settings at their place, also between the cells."""
-    drawn = []
+    places = {}
     for name, row in findings.marks.items():
         x = place_among(across, row[across.name], columns)
         y = place_among(upwards, row[upwards.name], lines)
@@ -80,9 +80,9 @@ def draw_marks(axes, findings, across, upwards, columns, lines, rows_factor, lev
             continue
         if x == int(x) and y == int(y):  # on a cell: beside its number
             x, y = x + 0.33, y + 0.3
-        axes.plot(x, y, zorder=5, **mark_style(findings, name))
-        drawn.append(name)
-    return drawn
+        places[name] = (x, y)
+    draw_marks(axes, findings, places)
+    return places
 
 
 def draw_heat_map(findings, across, upwards, rows_factor):
@@ -124,7 +124,7 @@ def draw_heat_map(findings, across, upwards, rows_factor):
                 texts = np.vectorize(findings.text)(values)
                 panels.append((ratios, failed))
             draw_cells(axes, ratios, texts, failed, norm)
-            marked += draw_marks(axes, findings, across, upwards, columns, lines, rows_factor,
+            marked += mark_cells(axes, findings, across, upwards, columns, lines, rows_factor,
                                  level)
             unit = "× best" if title == ALL and several else findings.unit
             shown = names.title(title)
@@ -185,9 +185,8 @@ def draw_scatter_map(findings, across, upwards):
             plain_log(axis, *axis.get_view_interval())
     marked = {name: row for name, row in findings.marks.items()
               if row[across.name] is not None and row[upwards.name] is not None}
-    for name, row in marked.items():
-        axes.plot(row[across.name], row[upwards.name], zorder=5,
-                  **mark_style(findings, name))
+    draw_marks(axes, findings, {name: (row[across.name], row[upwards.name])
+                                for name, row in marked.items()})
     axes.set(xlabel=across.label, ylabel=upwards.label)
     handles = mark_handles(findings, marked)
     if not good.all():

@@ -8,8 +8,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from trajlo_experiment import analysis, designs
-from trajlo_experiment.drawing import (SHAPES, below, error_axis, factor_axis, mark_handles,
-                                       mark_style, open_frame)
+from trajlo_experiment.drawing import (SHAPES, below, draw_marks, error_axis, factor_axis,
+                                       mark_handles, open_frame)
 from trajlo_experiment.experiment import CENTER
 from trajlo_experiment.factors import is_number
 from trajlo_report import names, theme
@@ -70,10 +70,9 @@ def draw_factor(axes, findings, factor):
     error_axis(axes, everything)
     factor_axis(axes, factor, centers)
     open_frame(axes)
-    for name, row in findings.marks.items():
-        if is_number(row[factor.name]) and name != CENTER:
-            axes.plot(row[factor.name], 0.0, transform=axes.get_xaxis_transform(), clip_on=False,
-                      zorder=5, **mark_style(findings, name))
+    draw_marks(axes, findings, {name: (row[factor.name], 0.0) for name, row in findings.marks.items()
+                                if is_number(row[factor.name]) and name != CENTER},
+               transform=axes.get_xaxis_transform(), clip_on=False)
 
 
 def point_medians(findings, rows, group):

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from trajlo_experiment import analysis
-from trajlo_experiment.drawing import (below, error_axis, mark_handles, mark_style,
+from trajlo_experiment.drawing import (below, draw_marks, error_axis, mark_handles,
                                        open_frame)
 from trajlo_experiment.figures_sensitivity import panels
 from trajlo_report import names, theme
@@ -68,11 +68,10 @@ def draw_front(axes, findings, settings, costs, errors, front):
         axes.annotate(str(number), (costs[index], errors[index]), textcoords="offset points",
                       xytext=(-3, -6), ha="right", va="center", fontsize=6,
                       color=theme.METHODS[0]).set_in_layout(False)
-    for name, row in findings.marks.items():
-        index = settings.index(row["point"]) if row["point"] in settings else None
-        if index is not None and good[index]:
-            axes.plot(costs[index], errors[index], zorder=5,
-                      **mark_style(findings, name))
+    places = {name: settings.index(row["point"]) for name, row in findings.marks.items()
+              if row["point"] in settings}
+    draw_marks(axes, findings, {name: (costs[index], errors[index])
+                                for name, index in places.items() if good[index]})
     axes.set_xscale("log")
     finite = costs[np.isfinite(costs)]
     axes.set_xlim(finite.min() / 1.12, finite.max() * 1.12)

@@ -32,6 +32,12 @@ class Point:
     def name(self):
         return f"point-{digest([self.options, self.parameters])[:8]}"
 
+    @property
+    def settings(self):
+        """All that it sets, as an experiment writes it: {option or parameter: text}."""
+        return {**self.options,
+                **{f"{SIMULATE}{key}": text for key, text in self.parameters.items()}}
+
 
 @dataclasses.dataclass(frozen=True)
 class Study:
@@ -110,9 +116,7 @@ def marked_point(experiment, mark, values):
 
 def beyond(point, defaults):
     """What a point sets to something else than the recordings have by themselves."""
-    settings = {**point.options,
-                **{f"{SIMULATE}{key}": text for key, text in point.parameters.items()}}
-    return {key: text for key, text in settings.items()
+    return {key: text for key, text in point.settings.items()
             if key not in defaults or number_or_text(text) != number_or_text(text_of(defaults[key]))}
 
 

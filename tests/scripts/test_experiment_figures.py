@@ -224,6 +224,26 @@ class FiguresTest(PretendedTest):
         self.assertIn("The best of 7 settings is σ = 0.1 m, kernel = huber.",
                       conclusion.sentences(clear)[0])
 
+    def test_a_mark_is_told_from_the_reference_by_its_name_and_options_in_text_and_figures(self):
+        text = GRID.replace("other: {a.sigma_m: 3", "tuned: {a.tuned: true, a.sigma_m: 1")
+        batch = self.batch(text)
+        self.finish(batch, bowl)
+        for run in batch.runs:
+            if "tuned" in run.configuration.label:
+                self.write_run(run, 0.001, 1.0)
+        theme.apply()
+        findings = Findings(batch.suite, table.collect(batch))
+        self.assertIn("The best of 7 settings is “tuned”: σ = 1 m, kernel = huber, a.tuned = true.",
+                      conclusion.sentences(findings)[0])
+        across, upwards = findings.study.factors
+        for figure in (figures_heat.draw_heat_map(findings, across, upwards, None),
+                       figures_sensitivity.draw_sensitivity(findings)):
+            figure.canvas.draw()
+            drawn = [line for line in figure.axes[0].lines if line.get_marker() in ("D", "*")]
+            self.assertEqual({line.get_marker() for line in drawn}, {"D", "*"})
+            one, other = (line.get_transform().transform(line.get_xydata())[0] for line in drawn)
+            self.assertGreater(math.dist(one, other) * 72 / figure.dpi, 5)
+
     def test_the_best_may_be_the_reference_itself(self):
         worse = self.findings(GRID, lambda levels, *_: 0.01 if levels == {
             "a.sigma_m": 1, "a.kernel": "huber"} else 0.02)
