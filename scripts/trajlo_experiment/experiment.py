@@ -136,6 +136,14 @@ def read_heat_maps(document, factors):
     return tuple(maps)
 
 
+def check_truths(sequences, document):
+    without = [sequence.name for sequence in sequences
+               if not sequence.scenario and not sequence.truth]
+    if without:
+        raise SuiteError(f"{document.file}: an experiment compares with the truth, and "
+                         f"{', '.join(without)} has none; name a file in truth, or leave it out")
+
+
 def read_experiment(path):
     """Reads and checks an experiment. Throws SuiteError."""
     path = pathlib.Path(path)
@@ -145,6 +153,7 @@ def read_experiment(path):
     check(defaults, suite.SHARED_KEYS, "defaults")
     sequences = [sequence for entry in suite.entries(document, "sequences")
                  for sequence in suite.read_sequences(entry, defaults)]
+    check_truths(sequences, document)
     design, factors = read_design(document), read_factors(document)
     marks = read_marks(document, factors)
     reference = document.get("reference", "")

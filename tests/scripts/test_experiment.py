@@ -54,6 +54,11 @@ class ReadingTest(PretendedTest):
                                   "k: {values: [1], keys: {window.segments: 2}}")
                     .replace("expert.registration.kernel: none", "k: 1"), "k and window.segments both set")
 
+    def test_a_recording_without_truth_is_refused(self):
+        text = SMALL + "  - {name: real, recording: real.bag}\n"
+        self.refuse(text, "e.yaml: .* with the truth, and real has none; name a file in truth")
+        read_experiment(self.write("e.yaml", text.replace("real.bag", "real.bag, truth: real.tum")))
+
     def test_what_a_job_decides_cannot_vary(self):
         self.refuse(SMALL.replace("expert.registration.kernel: [none, huber]", "threads: [1, 2]")
                     .replace("expert.registration.kernel: none", "threads: 1"), "threads cannot vary")
