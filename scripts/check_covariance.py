@@ -20,11 +20,13 @@ Needs Debian's python3-numpy and python3-scipy.
 
 Exit codes: 0 done, 1 wrong usage, 2 input unreadable.
 """
+import decimal
 import pathlib
 import sys
 
 import numpy as np
 from scipy import stats
+from scipy.interpolate import interp1d
 from scipy.spatial.transform import Rotation, Slerp
 
 from trajlo_report import command_line, files
@@ -56,23 +58,36 @@ def adjoints(rotations, translations):
     return result
 
 
+def read_covariances(path, start_ns):
+    """Times of the control poses since the start, and their covariances."""
+    lines = path.read_text().split()[1:]
+    times = [int(decimal.Decimal(line.partition(",")[0]).scaleb(9)) - start_ns for line in lines]
+    table = np.array([line.split(",")[1:] for line in lines], dtype=float).reshape(-1, 21)
+    if len(table) < 2:
+        raise files.ReportError(f"{path} has no covariances; trajlo_run --covariance writes them")
+    covariances = np.zeros((len(table), 6, 6))
+    covariances[:, *np.triu_indices(6)] = table
+    covariances += np.triu(covariances, 1).transpose(0, 2, 1)
+    return np.array(times) * 1e-9, covariances
+
+
 def read_run(result, truth_file):
     """Times since the start, estimated poses, covariances, and the true poses at these times."""
     times_ns, positions, quaternions = files.read_tum(result / "trajectory.tum")
     t_times_ns, t_positions, t_quaternions = files.read_tum(truth_file)
     rotations, t_rotations = Rotation.from_quat(quaternions), Rotation.from_quat(t_quaternions)
+    covariance_times, control_covariances = read_covariances(result / "covariance.csv", times_ns[0])
     times, t_times = (times_ns - times_ns[0]) * 1e-9, (t_times_ns - times_ns[0]) * 1e-9
     inside = (times >= t_times[0]) & (times <= t_times[-1])
-    # The first pose defines the world; nobody has estimated it.
-    inside[0] = False
+    # The first control pose defines the world; nobody has estimated it.
+    inside &= (times >= covariance_times[1] - 1e-9) & (times <= covariance_times[-1] + 1e-9)
     true_positions = np.stack(
         [np.interp(times[inside], t_times, t_positions[:, axis]) for axis in range(3)], axis=1)
     true_rotations = Slerp(t_times, t_rotations)(times[inside])
-    table = np.genfromtxt(result / "covariance.csv", delimiter=",", skip_header=1)[inside, 1:]
-    covariances = np.zeros((len(table), 6, 6))
-    covariances[:, *np.triu_indices(6)] = table
-    covariances += np.triu(covariances, 1).transpose(0, 2, 1)
-    return (times[inside], (positions[inside], rotations[inside]), covariances,
+    # With --at or --rate poses lie between control poses; covariance.csv is of these.
+    covariances = interp1d(covariance_times, control_covariances, axis=0, bounds_error=False,
+                           fill_value=(control_covariances[0], control_covariances[-1]))
+    return (times[inside], (positions[inside], rotations[inside]), covariances(times[inside]),
             (true_positions, true_rotations))
 
 

@@ -85,6 +85,18 @@ class CheckCovarianceTest(FolderTest):
         before_zero = self.check([self.make_run(1, 1.0, start_s=-2)])
         self.assertEqual(before_zero.stdout, here.stdout)
 
+    def test_poses_may_lie_between_the_control_poses(self):
+        run = self.make_run(1, 1.0)
+        every = self.check([run], "--begin=1.3")
+        path = self.folder / "1/result/covariance.csv"
+        head, *lines = path.read_text().splitlines()
+        path.write_text("\n".join([head, *lines[::2]]) + "\n")
+        self.assertEqual(self.check([run], "--begin=1.3").stdout, every.stdout)
+        path.write_text(head + "\n")
+        done = self.check([run])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("covariance.csv has no covariances", done.stderr)
+
     def test_runs_that_are_too_short_are_refused(self):
         done = self.check([self.make_run(1, 1.0)], "--apart=5")
         self.assertNotEqual(done.returncode, 0)
