@@ -137,13 +137,13 @@ def run_command(job, inputs, files, result):
 
 def last_message(path):
     """What a program said last by its name, else the last line of a log; on one line, with the
-    lines below that continue it."""
+    lines below that continue it, but without the summary of a run."""
     lines = path.read_text(errors="replace").rstrip().splitlines()
     begins = [i for i, line in enumerate(lines) if re.match(r"trajlo_\w+: (?!warning)", line)] or [
         i for i, line in enumerate(lines) if not line.startswith(" ")]
     begin = begins[-1] if begins else 0
-    end = next((i for i in range(begin + 1, len(lines)) if not lines[i].startswith(" ")),
-               len(lines))
+    end = next((i for i in range(begin + 1, len(lines))
+                if not lines[i].startswith(" ") or re.match(r"  [a-z]+  +\S", lines[i])), len(lines))
     return "; ".join(line.strip() for line in lines[begin:end]).replace(":; ", ": ")
 
 

@@ -124,6 +124,11 @@ class RunTest(FolderTest):
         self.assertEqual(status["reason"], "input unreadable: trajlo_run: a.bag: no topic; there "
                                            "are: /front; /rear; Set input.topics.")
 
+    def test_the_summary_of_a_run_is_no_part_of_the_message(self):
+        status = self.run_with("printf 'trajlo_run: no point can be used\\n  input       3 of 3 scans\\n"
+                               "  windows     none\\n  result      no_usable_points\\n'; exit 2")
+        self.assertEqual(status["reason"], "input unreadable: trajlo_run: no point can be used")
+
     def test_a_signal_is_a_crash(self):
         status = self.run_with("kill -ABRT $$")
         self.assertEqual((status["exit_code"], status["reason"]),
