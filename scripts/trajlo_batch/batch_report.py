@@ -63,6 +63,8 @@ def summary(rows):
         counts[row["result"]] = counts.get(row["result"], 0) + 1
         found = remarks.setdefault(row["result"], {})
         for remark, applies in (("with warnings about the input", results.in_doubt(row)),
+                                ("with warnings about the comparison with the truth",
+                                 bool(row.get("evaluation_warnings"))),
                                 ("outdated", bool(row.get("outdated")))):
             found[remark] = found.get(remark, 0) + applies
     words = {results.OK: "ended well", results.FAILED: "with an x",

@@ -87,6 +87,19 @@ def evaluation_values(folder):
     return values, divergence(estimate)
 
 
+# Warnings of trajlo_evaluate that rows have in other columns: ate_rotation_determined, exit_code.
+TOLD_OTHERWISE = re.compile("ATE \\[deg\\] says little|of trajlo_run, which said|trajlo_run reported"
+                            "|all rotations are exactly the identity")
+
+
+def evaluation_warnings(folder):
+    """What trajlo_evaluate doubts about the comparison of a run with the truth, in words."""
+    document = read_json_if(folder / "evaluation" / "evaluation.json") or {}
+    texts = [re.sub("^.*?: ", lambda begin: begin[0].rpartition("/")[2], text)  # the file's name
+             for text in document.get("warnings") or []]
+    return "; ".join(text for text in texts if not TOLD_OTHERWISE.search(text))
+
+
 def divergence(estimate):
     """Why an evaluated run gets an x; nothing if it gets none."""
     if not estimate.get("diverged"):
@@ -202,6 +215,7 @@ def collect(plan, asked=None):
             "result": result, "reason": reason, "outdated": ", ".join(run.outdated),
             "exit_code": status.get("exit_code"),
             "diverged": bool(diverged) if metrics["pairs"] is not None else None,
+            "evaluation_warnings": evaluation_warnings(folder),
             **metrics, **values,
             "cpu_s_per_data_second": cpu_per_data_second(status.get("cpu_s"), values["data_s"]),
             **{key: status.get(key) for key in ("wall_s", "cpu_s", "peak_memory_mb", "started",

@@ -10,6 +10,7 @@ from trajlo_batch import results, table_formats
 from trajlo_report import names
 
 X, ABSENT, PENDING, DOUBT, OUTDATED = "x", "-", "…", "!", "outdated"
+UNSURE = "?"
 GOOD = (results.OK, results.NO_TRUTH)
 # What readers see in the place of a column of results.csv.
 METRICS = {"ate_rmse_m": "absolute position error, RMSE [m]",
@@ -17,6 +18,7 @@ METRICS = {"ate_rmse_m": "absolute position error, RMSE [m]",
            "kitti_translation_percent": "KITTI's relative translation error [%]",
            "kitti_rotation_deg_per_m": "KITTI's relative rotation error [°/m]",
            "distance_to_start_m": "distance of the end from the start [m]"}
+FROM_TRUTH = re.compile("(ate|rpe|kitti)_.*|completeness|pairs|path_length_m|time_offset_s")
 # Of other columns, such as the length of the path, neither the least nor the most is the best.
 LARGER_IS_BETTER = re.compile("times_real_time|inlier_share|completeness|pairs|lost_at_s"
                               "|smallest_eigenvalue_.*")
@@ -66,7 +68,10 @@ def result_cell(rows, suite, decimals):
     note = "; ".join(f"{row['sequence']}: {row['result']}, {row['reason']}"
                      for row in rows if row["result"] not in GOOD or results.in_doubt(row))
     old = [row for row in rows if row.get("outdated")]
+    unsure = [row for row in rows if row.get("evaluation_warnings")
+              and FROM_TRUTH.fullmatch(suite.metric)]
     note = "; ".join([*([note] if note else []), *(
+        f"{row['sequence']}: {row['evaluation_warnings']}" for row in unsure), *(
         f"{row['sequence']}: {OUTDATED}, changed since: {row['outdated']}" for row in old)])
     folder = rows[0]["folder"]
     values = [row[suite.metric] for row in rows
@@ -79,6 +84,7 @@ def result_cell(rows, suite, decimals):
     share = f" ({ended} of {len(rows)})" if ended < len(rows) else ""
     share += f" ({OUTDATED})" if len(old) == len(rows) else f" ({len(old)} {OUTDATED})" if old else ""
     if not values:
+        share = f" {UNSURE}{share}" if unsure else share
         return Cell(f"{X}{share}", note=note, folder=folder)
     value = {"median": statistics.median, "mean": statistics.fmean, "max": max}[
         suite.over_seeds](values)
@@ -88,6 +94,8 @@ def result_cell(rows, suite, decimals):
         note = f"{spread}; {note}" if note else spread
     if any(map(results.in_doubt, rows)):
         text += f" {DOUBT}"
+    if unsure:
+        text += f" {UNSURE}"
     if failed:
         text += f" ({failed} {X})"
     # One that fails on a seed is not the best, however good the others are; of one that has not
@@ -182,6 +190,17 @@ def doubt_note(lines):
             "damaged, left out or in doubt; results.csv says which."] if marked else []
 
 
+def unsure_note(lines):
+    """The same for what trajlo_evaluate has doubts about."""
+    marked = any(UNSURE in cell.text for line in lines if line.ours for cell in line.cells)
+    return [f"{UNSURE}: trajlo_evaluate warns about the comparison with the truth, such as about units, "
+            "axes or clocks; results.csv says why in evaluation_warnings."] if marked else []
+
+
+def mark_notes(lines):
+    return doubt_note(lines) + unsure_note(lines) + outdated_note(lines)
+
+
 def outdated_note(lines):
     """What that word at a value means, where it is."""
     marked = any(OUTDATED in cell.text for line in lines if line.ours for cell in line.cells)
@@ -218,7 +237,7 @@ def compared_table(suite, rows, published):
     lines.sort(key=lambda line: order.index(line.category))
     mark(lines, suite.metric)
     notes = [f"Rows without * are from {published.source}.", *published.notes]
-    notes += doubt_note(lines) + outdated_note(lines)
+    notes += mark_notes(lines)
     table = Table(published.caption, list(published.columns), lines, notes)
     if "AVG" in table.columns:
         groups = {sequence.group for sequence in suite.sequences}
@@ -240,7 +259,7 @@ def suite_table(suite, rows, marked=True):
     if marked and len(lines) > 1:
         mark(lines, suite.metric)
     notes = [f"{group}: degenerate by construction ({why})" for group, why in degenerate.items()]
-    notes += seeds_note(suite, rows) + doubt_note(lines) + outdated_note(lines)
+    notes += seeds_note(suite, rows) + mark_notes(lines)
     table = Table(f"{suite.title}: {METRICS.get(suite.metric, suite.metric)}", groups, lines, notes,
                   transposed=suite.rows == "sequences")
     if suite.average:
@@ -256,6 +275,5 @@ def speed_table(suite, rows):
     threads = names.counted(suite.threads, "thread")
     table.caption = f"{suite.title}: processor time for a second of data [s], {threads} a run"
     table.notes = ["Below 1, one core keeps up with the sensor. Reading the recording and writing "
-                   "the results are counted.", *doubt_note(table.lines),
-                   *outdated_note(table.lines)]
+                   "the results are counted.", *mark_notes(table.lines)]
     return table

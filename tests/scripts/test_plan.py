@@ -299,6 +299,29 @@ class ResultsTest(PlannedTest):
         self.assertEqual((good["result"], good["ate_rmse_m"]), ("ok", 0.25))
         self.assertEqual((bad["result"], bad["reason"]), ("x", "too far"))
 
+    def test_doubts_about_the_comparison_reach_table_page_and_console(self):
+        batch = self.plan()
+        self.finish(batch)
+        for run, warning in zip(batch.runs, ("positions are 0.24 times as large", "ATE [deg] says little")):
+            folder = f"out/{run.folder}"
+            self.write(f"{folder}/evaluation_status.json", '{"exit_code": 0, "reason": ""}')
+            self.write(f"{folder}/evaluation/evaluation.json", json.dumps(
+                {"estimates": [{"pairs": 2, "ate": {"translation_m": {"rmse": 0.25}}}],
+                 "warnings": [f"/some where/else/trajectory.tum: {warning}"]}))
+        done = subprocess.run(
+            [SCRIPTS / "batch", self.folder / "s.yaml", "--build", self.places.build, "--output",
+             self.places.output, "--report"], capture_output=True, text=True, check=False)
+        said = "trajectory.tum: positions are 0.24 times as large"
+        self.assertIn("2 ended well (of which 1 with warnings about the comparison with the truth)\n"
+                      f"  ? plain/hall_os1_16-seed1: {said}\n", done.stdout)
+        self.assertEqual([row["evaluation_warnings"] for row in results.collect(batch)], [said, ""])
+        table = (self.places.output / "table.md").read_text()
+        self.assertIn("| **0.2500 ?** | **0.2500** |", table)
+        self.assertIn("- ?: trajlo_evaluate warns about the comparison", table)
+        self.assertNotIn("?", (self.places.output / "speed.md").read_text())
+        self.assertIn(f'<p class="failed">{said}</p>',
+                      (self.places.output / "report.html").read_text())
+
     def test_rows_name_the_options_that_vary(self):
         batch = self.plan()
         batch.runs[1] = dataclasses.replace(batch.runs[1], options="window: {segments: 3}")
