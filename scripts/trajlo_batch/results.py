@@ -2,7 +2,6 @@
 """What came out of a batch: a row a run, with the options that vary, metrics, time and how it
 ended."""
 import dataclasses
-import difflib
 import pathlib
 import re
 import shlex
@@ -12,6 +11,7 @@ import yaml
 from trajlo_batch.places import read_json_if
 from trajlo_batch.steps import simulate_command
 from trajlo_batch.yaml_lines import SuiteError
+from trajlo_report.names import nearest
 
 PARTIAL = 3  # exit code of runs whose input was damaged, left out in part or in doubt
 USABLE = (0, PARTIAL)  # exit codes of runs whose whole recording was processed
@@ -144,7 +144,7 @@ def check_metric(suite, more=()):
         return
     names += ["rpe_1m_rmse_m"]
     near = [*(name for name in names if name.startswith(suite.metric)),
-            *difflib.get_close_matches(suite.metric, names, 1)]
+            *nearest(suite.metric, names)]
     raise SuiteError(f"{suite.file}: metric: no run has '{suite.metric}'"
                      + (f"; did you mean '{near[0]}'?" if near else
                         f"; there are {', '.join(names)}"))

@@ -6,7 +6,7 @@ import pathlib
 import re
 
 from trajlo_batch.yaml_lines import SuiteError, check, load, texts
-from trajlo_report.names import decimals_of
+from trajlo_report.names import decimals_of, suggestion
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 
@@ -188,7 +188,7 @@ def one_of(document, key, choices):
     value = document.get(key, choices[0])
     if value not in choices:
         raise SuiteError(f"{document.where(key)}: {key} is one of {', '.join(choices)}, "
-                         f"not {value!r}")
+                         f"not {value!r}{suggestion(str(value), choices)}")
     return value
 
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Which files the words of a suite mean."""
-import difflib
 import os
 import pathlib
 
 from trajlo_batch.places import ROOT
 from trajlo_batch.yaml_lines import SuiteError
+from trajlo_report.names import nearest, suggestion
 
 YAML = (".yaml", ".yml")
 
@@ -28,12 +28,10 @@ def of_project(word, kind):
     if path.exists():
         return path
     if path.name == word and path.suffix not in YAML:
-        near = difflib.get_close_matches(word, known, 1)
         raise SuiteError(f"there is no file {word}, and no {kind.removesuffix('s')} of this name"
-                         + (f"; did you mean {near[0]}?" if near else
-                            f"; there are {', '.join(known)}"))
+                         + (suggestion(word, known) or f"; there are {', '.join(known)}"))
     beside = {file.stem: file for file in (*known.values(), *path.parent.glob("*.y*ml"))}
-    near = difflib.get_close_matches(path.stem, beside, 1)
+    near = nearest(path.stem, beside)
     raise SuiteError(f"there is no file {path}"
                      + (f"; did you mean {beside[near[0]]}?" if near else ""))
 
@@ -52,8 +50,7 @@ def find(suite_file, word, names=None):
     # Stems: the same ending does not make names alike.
     beside = {} if is_name else {file.stem: file.name for folder in (own, ROOT)
                                  for file in (folder / path).parent.glob("*")}
-    near = [*(beside[stem] for stem in difflib.get_close_matches(path.stem, beside, 1)),
-            *difflib.get_close_matches(path.stem, names or {}, 1)]
+    near = [*(beside[stem] for stem in nearest(path.stem, beside)), *nearest(path.stem, names or {})]
     hint = f"; did you mean {near[0]}?" if near else ""
     raise SuiteError(f"{suite_file}: there is no configuration {word}{hint}" if is_name else
                      f"{suite_file}: there is no {own / path}"

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """YAML whose mappings know the lines of their keys, so that errors can name them."""
-import difflib
 import pathlib
 
 import yaml
+
+from trajlo_report.names import suggestion
 
 
 class SuiteError(Exception):
@@ -72,8 +73,7 @@ def check(mapping, types, what):
     """Every key is known and its value of the right type. Throws SuiteError naming the line."""
     for key, value in mapping.items():
         if key not in types:
-            near = difflib.get_close_matches(key, types, n=1)
-            hint = f"; did you mean {near[0]}?" if near else f"; known are {', '.join(types)}"
+            hint = suggestion(key, types) or f"; known are {', '.join(types)}"
             raise SuiteError(f"{mapping.where(key)}: {what} has no key {key}{hint}")
         wanted = types[key] if isinstance(types[key], tuple) else (types[key],)
         if isinstance(value, bool) and bool not in wanted or not isinstance(value, wanted):

@@ -7,6 +7,7 @@ from trajlo_batch import suite
 from trajlo_batch.yaml_lines import SuiteError, check, load
 from trajlo_experiment import designs
 from trajlo_experiment.factors import number_or_text, read_factor
+from trajlo_report.names import suggestion
 
 EXPERIMENT_KEYS = {"title": str, "question": str, "needs": str, "design": dict, "vary": dict,
                    "center": dict, "marks": dict, "reference": str, "defaults": dict,
@@ -160,7 +161,7 @@ def read_experiment(path):
     known = [*marks, *([CENTER] if design.kind == designs.ONE_AT_A_TIME else [])]
     if reference and reference not in known:
         raise SuiteError(f"{document.where('reference')}: the reference is one of "
-                         f"{', '.join(known) or 'no marks'}, not {reference}")
+                         f"{', '.join(known) or 'no marks'}, not {reference}{suggestion(reference, known)}")
     return Experiment(
         name=path.stem, file=path, title=document.get("title", path.stem),
         question=document.get("question", ""), needs=document.get("needs", ""),

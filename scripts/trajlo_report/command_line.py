@@ -6,6 +6,7 @@ import os
 import sys
 
 from trajlo_report.files import ReportError, WriteError
+from trajlo_report.names import suggestion
 
 USAGE, UNREADABLE, NOT_WRITABLE = 1, 2, 5
 MENDS = {errno.ENOENT: "check the path", errno.ENOSPC: "free some space",
@@ -23,6 +24,9 @@ class Parser(argparse.ArgumentParser):
         super().__init__(formatter_class=argparse.RawDescriptionHelpFormatter, **keywords)
 
     def error(self, message):
+        unknown = [word.partition("=")[0] for word in message.split() if word.startswith("--")]
+        if unknown and message.startswith("unrecognized arguments: "):
+            message += suggestion(unknown[0], self._option_string_actions)
         self.print_usage(sys.stderr)
         self.exit(USAGE, f"{self.prog}: {message}\n")
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Names for people: `hall_os1_16` is "Hall, OS1-16"."""
+import difflib
 import re
 
 # How makers write their sensors: a pattern over the words of a name, and its text.
@@ -20,6 +21,16 @@ def decimals_of(metric):
 def counted(count, one, many=""):
     """ "1 run", "2 runs" """
     return f"{count} {one if count == 1 else many or one + 's'}"
+
+
+def nearest(word, known):
+    """The known word that a misspelt one was meant to be, as a list; empty where none is near."""
+    return difflib.get_close_matches(word, list(known), 1)
+
+
+def suggestion(word, known):
+    """ "; did you mean right?", or nothing."""
+    return "".join(f"; did you mean {near}?" for near in nearest(word, known))
 
 
 def scenario_title(name):

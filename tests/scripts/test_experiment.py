@@ -42,10 +42,10 @@ class ReadingTest(PretendedTest):
 
     def test_mistakes_are_named_with_their_line(self):
         self.refuse(SMALL.replace("vary", "varry"), "e.yaml:3.*mean vary?")
-        self.refuse(SMALL.replace("grid", "gird"), "e.yaml:2: kind is one of grid")
+        self.refuse(SMALL.replace("grid", "gird"), "e.yaml:2: kind is one of grid.* mean grid?")
         self.refuse(SMALL.replace("grid", "sobol"), "samples")
         self.refuse(SMALL.replace("{kind: grid}", "{kind: grid, samples: 3}"), "samples")
-        self.refuse(SMALL + "reference: chosne\n", "defaults, chosen, not chosne")
+        self.refuse(SMALL + "reference: chosne\n", "defaults, chosen, not chosne; did you mean chosen?")
         self.refuse(SMALL + "heat_maps: [[window.segments, b]]\n", "heat map")
         self.refuse(SMALL + "center: {window.segments: 3}\n", "only one_at_a_time has a center")
 

@@ -26,6 +26,14 @@ class HelpTest(unittest.TestCase):
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertIn("usage: ", done.stdout)
 
+    def test_a_misspelt_option_is_told_the_right_one(self):
+        for script, wrong, right in (("batch", "--lsit", "--list"),
+                                     ("draw_run.py", "--evalution=x", "--evaluation")):
+            done = subprocess.run([SCRIPTS / script, "there", wrong], capture_output=True, text=True,
+                                  check=False)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"unrecognized arguments: {wrong}; did you mean {right}?\n", done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -74,6 +74,12 @@ class OnlyTest(PlannedTest):
         self.assertEqual(done.returncode, 3)
         self.assertIn("  x varied/hall_os1_16-seed1: timeout\n", done.stdout)
 
+    def test_a_misspelt_run_is_told_the_right_one(self):
+        for option in ("--only", "--command"):
+            done = self.batch(option, "plain/hall_os1_16-seed")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("; did you mean plain/hall_os1_16-seed1?\n", done.stderr)
+
     def test_every_column_of_its_results_is_described(self):
         self.batch("--report")
         head, *_ = (self.places.output / "results.csv").read_text().splitlines()
