@@ -9,6 +9,7 @@ import numpy as np
 from trajlo_batch import results
 
 BOOTSTRAP = 2000
+COST_NOISE = 0.05  # relative differences of the processor time of equal runs
 PRINTED = 0.005  # relative differences that are smaller are not seen in tables
 
 
@@ -51,13 +52,16 @@ def wilson(failed, count, z=1.96):
 
 
 def pareto(costs, errors):
-    """Indices of those that nothing beats in both, by growing cost."""
-    front, best = [], math.inf
-    for index in sorted(range(len(costs)), key=lambda i: (costs[i], errors[i])):
-        if errors[index] < best:
-            front.append(index)
-            best = errors[index]
-    return front
+    """Indices of those that nothing beats in both, by growing cost. One that is cheaper by less than
+    the noise is not cheaper."""
+    def beats(one, other):
+        if errors[one] == errors[other]:
+            return (costs[one], one) < (costs[other], other)
+        return errors[one] < errors[other] and costs[one] <= (1 + COST_NOISE) * costs[other]
+
+    places = [i for i in range(len(costs)) if math.isfinite(errors[i])]
+    return sorted((i for i in places if not any(beats(other, i) for other in places)),
+                  key=lambda i: costs[i])
 
 
 def recordings_of(rows):

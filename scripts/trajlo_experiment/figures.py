@@ -2,7 +2,7 @@
 """All figures of an experiment: which there are, and what is said below them."""
 import re
 
-from trajlo_experiment import (designs, figures_heat, figures_levels, figures_parallel,
+from trajlo_experiment import (analysis, designs, figures_heat, figures_levels, figures_parallel,
                                figures_sensitivity, figures_tornado, figures_tradeoff)
 from trajlo_report import files, theme
 
@@ -68,7 +68,8 @@ def all_figures(findings):
     yield "failures", figures_sensitivity.draw_failures(findings), (
         "Share of the runs that got lost, diverged or crashed.")
     yield "pareto", figures_tradeoff.draw_pareto(findings), (
-        "Error against processor time of the whole program; the numbers lead to the table.")
+        "Error against processor time of the whole program; the numbers lead to the table. Times that "
+        f"differ by less than {100 * analysis.COST_NOISE:.0f} % count as equal: that much is noise.")
     if kind != designs.ONE_AT_A_TIME:
         yield "parallel", figures_parallel.draw_parallel(findings), (
             "Each line is a setting, from its values to its error over all scenarios.")

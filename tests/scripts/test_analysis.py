@@ -44,6 +44,9 @@ class ParetoTest(unittest.TestCase):
         costs, errors = [1, 2, 3, 4, 1], [5, 3, 4, 1, 6]
         self.assertEqual(analysis.pareto(costs, errors), [0, 1, 3])
 
+    def test_who_is_cheaper_by_less_than_noise_is_not_on_the_front(self):
+        self.assertEqual(analysis.pareto([100, 104, 103, 120], [5, 3, 4, 2.9]), [1, 3])
+
     def test_a_failure_is_never_on_the_front(self):
         self.assertEqual(analysis.pareto([1, 2], [math.inf, 1.0]), [1])
 
