@@ -6,24 +6,14 @@ import math
 import numpy as np
 from scipy.stats import qmc
 
-from trajlo_batch.yaml_lines import SuiteError
-
 GRID, ONE_AT_A_TIME = "grid", "one_at_a_time"
 RANDOM, LATIN_HYPERCUBE, SOBOL = "random", "latin_hypercube", "sobol"
 SAMPLED = (RANDOM, LATIN_HYPERCUBE, SOBOL)
 KINDS = (GRID, ONE_AT_A_TIME, *SAMPLED)
 
 
-def need_levels(factors):
-    for factor in factors:
-        if not factor.levels:
-            raise SuiteError(f"the range of {factor.name} needs steps for a design that takes "
-                             "values in turn")
-
-
 def grid(factors):
     """All combinations."""
-    need_levels(factors)
     names = [factor.name for factor in factors]
     return [dict(zip(names, levels))
             for levels in itertools.product(*(factor.levels for factor in factors))]
@@ -40,7 +30,6 @@ def one_at_a_time(factors, center, shown):
 
     center: {name: level}, what the centre sets; shown: {name: level}, what factors that are not in
     it have by themselves. No point of either is repeated."""
-    need_levels(factors)
     points = [dict(center)]
     for factor in factors:
         at_center = center.get(factor.name, shown.get(factor.name))
@@ -55,8 +44,6 @@ def unit_samples(kind, dimensions, samples, seed):
         return np.random.default_rng(seed).random((samples, dimensions))
     if kind == LATIN_HYPERCUBE:
         return qmc.LatinHypercube(dimensions, seed=seed).random(samples)
-    if samples & (samples - 1):
-        raise SuiteError(f"a Sobol design is balanced for 2, 4, 8, ... samples only, not {samples}")
     return qmc.Sobol(dimensions, scramble=True, seed=seed).random(samples)
 
 

@@ -59,6 +59,10 @@ def read_design(document):
     if (kind in designs.SAMPLED) != (entry.get("samples", 0) > 0):
         raise SuiteError(f"{entry.where('samples')}: samples, from 1 on, belong to the designs "
                          f"{', '.join(designs.SAMPLED)}, and to these only")
+    samples = entry.get("samples", 0)
+    if kind == designs.SOBOL and samples & (samples - 1):
+        raise SuiteError(f"{entry.where('samples')}: a Sobol design is balanced for 2, 4, 8, ... "
+                         f"samples only, not {samples}")
     if entry.get("seed", 1) < 0:
         raise SuiteError(f"{entry.where('seed')}: a seed is a whole number from 0 on")
     return Design(kind, entry.get("samples", 0), entry.get("seed", 1))
@@ -68,12 +72,15 @@ def keys_of(factor):
     return {key for options in factor.settings.values() for key in options} | set(factor.keys)
 
 
-def read_factors(document):
+def read_factors(document, kind):
     vary = document.get("vary")
     if not vary:
         raise SuiteError(f"{document.file}: an experiment needs something to vary")
     factors, owner = [read_factor(vary, name) for name in vary], {}
     for factor in factors:
+        if not factor.levels and kind not in designs.SAMPLED:
+            raise SuiteError(f"{vary.where(factor.name)}: the range of {factor.name} needs steps for a "
+                             "design that takes values in turn")
         for key in keys_of(factor):
             if key in RESERVED:
                 raise SuiteError(f"{vary.where(factor.name)}: {key} cannot vary: it belongs to the "
@@ -155,7 +162,8 @@ def read_experiment(path):
     sequences = [sequence for entry in suite.entries(document, "sequences")
                  for sequence in suite.read_sequences(entry, defaults)]
     check_truths(sequences, document)
-    design, factors = read_design(document), read_factors(document)
+    design = read_design(document)
+    factors = read_factors(document, design.kind)
     marks = read_marks(document, factors)
     reference = document.get("reference", "")
     known = [*marks, *([CENTER] if design.kind == designs.ONE_AT_A_TIME else [])]

@@ -44,6 +44,10 @@ class ReadingTest(PretendedTest):
         self.refuse(SMALL.replace("vary", "varry"), "e.yaml:3.*mean vary?")
         self.refuse(SMALL.replace("grid", "gird"), "e.yaml:2: kind is one of grid.* mean grid?")
         self.refuse(SMALL.replace("grid", "sobol"), "samples")
+        self.refuse(SMALL.replace("{kind: grid}", "{kind: sobol, samples: 6}"),
+                    "e.yaml:2: a Sobol design is balanced for 2, 4, 8.*not 6")
+        self.refuse(SMALL.replace("[3, 5]", "{from: 3, to: 5}"),
+                    "e.yaml:4: the range of window.segments needs steps")
         self.refuse(SMALL.replace("{kind: grid}", "{kind: grid, samples: 3}"), "samples")
         self.refuse(SMALL + "reference: chosne\n", "defaults, chosen, not chosne; did you mean chosen?")
         self.refuse(SMALL + "heat_maps: [[window.segments, b]]\n", "heat map")
