@@ -150,10 +150,13 @@ def check_metric(suite, more=()):
                         f"; there are {', '.join(names)}"))
 
 
-def outcome(status, evaluation_status, diverged):
+def outcome(folder, status, diverged):
     """One of OK, FAILED, UNFINISHED, NO_TRUTH, and the reason."""
+    evaluation_status = read_json_if(folder / "evaluation_status.json")
     if not status:
-        return UNFINISHED, "see snakemake.log"
+        return UNFINISHED, ("see snakemake.log" if (folder / "log.txt").is_file() else
+                            "not started; see snakemake.log" if (folder / "job.json").is_file() else
+                            "not started")
     if status["exit_code"] not in USABLE:
         return FAILED, status["reason"]
     if not evaluation_status:
@@ -183,8 +186,7 @@ def ended(folder):
     status = read_json_if(folder / "status.json")
     if not status:
         return None
-    result, reason = outcome(status, read_json_if(folder / "evaluation_status.json"),
-                             evaluation_values(folder)[1])
+    result, reason = outcome(folder, status, evaluation_values(folder)[1])
     return None if result == UNFINISHED else Ended(result, reason, status["wall_s"])
 
 
@@ -203,7 +205,7 @@ def collect(plan, asked=None):
         folder = plan.places.output / run.folder
         status = read_json_if(folder / "status.json") or {}
         metrics, diverged = evaluation_values(folder)
-        result, reason = outcome(status, read_json_if(folder / "evaluation_status.json"), diverged)
+        result, reason = outcome(folder, status, diverged)
         if result == UNFINISHED and asked is not None and run.folder not in asked:
             result, reason = NOT_ASKED, "--only left it out"
         values = run_values(folder)

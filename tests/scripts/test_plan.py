@@ -285,6 +285,14 @@ class PlanTest(PlannedTest):
 
 
 class ResultsTest(PlannedTest):
+    def test_a_run_that_was_not_started_is_told_from_one_that_did_not_end(self):
+        batch = self.plan()
+        self.assertEqual(results.collect(batch)[0]["reason"], "not started")
+        plan.write_plan(batch, keep_recordings=True)
+        self.write(f"out/{batch.runs[1].folder}/log.txt", "")
+        self.assertEqual([row["reason"] for row in results.collect(batch)],
+                         ["not started; see snakemake.log", "see snakemake.log"])
+
     def test_a_crash_is_an_x_with_its_reason(self):
         batch = self.plan()
         self.finish(batch, exit_code=-11)
