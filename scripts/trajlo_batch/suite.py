@@ -180,7 +180,7 @@ def unique(items, what, document):
     names = [item.name for item in items]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
-        raise SuiteError(f"{document.file}: {what} {', '.join(twice)} stands in the suite twice")
+        raise SuiteError(f"{document.file}: {what} {', '.join(twice)} appears twice")
     return tuple(items)
 
 

@@ -35,7 +35,7 @@ def _mapping(loader, node):
         if not isinstance(key, str):
             raise SuiteError(f"{loader.name}:{line}: the key {key!r} is not a text; quote it")
         if key in result:
-            raise SuiteError(f"{loader.name}:{line}: the key {key} stands here twice")
+            raise SuiteError(f"{loader.name}:{line}: the key {key} appears twice")
         result[key] = loader.construct_object(value_node, deep=True)
         result.lines[key] = line
 

@@ -104,7 +104,7 @@ def read_levels(mapping, key, values):
         scalar_text(holder, key)  # refuses what --set cannot take
         level = number_or_text(value)
         if level in levels:
-            raise SuiteError(f"{mapping.where(key)}: the value {value} of {key} stands there twice")
+            raise SuiteError(f"{mapping.where(key)}: the value {value} of {key} appears twice")
         levels.append(level)
     return tuple(levels)
 

@@ -33,10 +33,10 @@ def factor(value):
 
 
 def of_end(document):
-    """A comparison that a signal ended, or that still goes on, must not read as a finished one."""
+    """A comparison that a signal ended or that is still running must not read as a finished one."""
     if document.get("is_whole", True):
         return []
-    return ["The comparison did not come to its end: the last run is not whole, and variants may "
+    return ["The comparison did not finish: the last run is not whole, and variants may "
             "be missing."]
 
 

@@ -13,7 +13,7 @@ MARK = " †"  # of a scenario that is degenerate by construction
 
 
 def decimals_of(metric):
-    """Behind the point of a value in a table: errors in metres are told apart by a tenth of a
+    """After the decimal point of a value in a table: errors in metres are told apart by a tenth of a
     millimetre, which many runs differ by."""
     return 5 if metric.endswith("_per_m") else 4 if metric.endswith("_m") else 3
 

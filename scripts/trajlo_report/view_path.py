@@ -16,7 +16,7 @@ class Quantity:
     unit: str
     values: np.ndarray
     colors: str          # a colour map of matplotlib
-    digits: int          # behind the point
+    digits: int          # after the decimal point
     is_log: bool = False
 
     def bounds(self):

@@ -78,7 +78,7 @@ class ComparisonPageTest(FolderTest):
             self.assertIn(said, text)
 
     def test_a_comparison_that_was_cut_short_says_so(self):
-        said = "did not come to its end"
+        said = "did not finish"
         self.assertNotIn(said, self.draw())
         self.document["is_whole"] = False
         self.assertIn(said, self.draw())

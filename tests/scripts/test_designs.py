@@ -75,7 +75,7 @@ class FactorTest(ReadingTest):
         self.refuse("{from: 1, to: 2, steps: 1}", "at least 2 steps")
         self.refuse("{values: [1], from: 1}", "one of values, from with to, settings")
         self.refuse("{value: [1]}", "mean values?")
-        self.refuse("[1, 1.0]", "twice")
+        self.refuse("[1, 1.0]", "appears twice")
         self.refuse("[]", "no values")
         self.refuse("['a,b']", "without commas")
         self.refuse("3", "needs a list of values")

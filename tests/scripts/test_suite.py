@@ -90,10 +90,10 @@ class SuiteTest(FolderTest):
         self.refuse(SMALL + "    only: '*x2'\n", "plain", "matches no sequence")
 
     def test_a_configuration_that_stands_there_twice_is_refused(self):
-        self.refuse(SMALL + "  - name: plain\n", "plain", "twice")
+        self.refuse(SMALL + "  - name: plain\n", "plain", "appears twice")
 
     def test_a_key_that_stands_there_twice_is_refused(self):
-        self.refuse(SMALL + "configurations: []\n", "small.yaml:8", "twice")
+        self.refuse(SMALL + "configurations: []\n", "small.yaml:8", "appears twice")
 
     def test_a_seed_of_zero_is_refused_because_the_simulator_reads_it_as_none(self):
         self.refuse(SMALL.replace("[1, 2]", "[0]"), "seed", "from 1 on")
