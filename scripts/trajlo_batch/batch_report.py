@@ -77,15 +77,15 @@ def summary(rows):
     return ", ".join(texts)
 
 
-def about_outdated(rows):
+def about_outdated(rows, without="--report and --only"):
     """What has changed since the runs, and what to do about it; nothing if nothing has."""
     old = [row for row in rows if row["outdated"]]
     if not old:
         return ""
     changed = sorted({name for row in old for name in row["outdated"].split(", ")})
     builds = (" --any-version accepts other builds." if {"program", "simulator"} & {*changed} else "")
-    return (f"{len(old)} of {names.counted(len(rows), 'run')} outdated: the {', '.join(changed)} changed "
-            f"since. Without --report and --only they are repeated.{builds}")
+    return (f"Outdated: {len(old)} of {names.counted(len(rows), 'run')}; changed since: "
+            f"{', '.join(changed)}. Without {without} the same command repeats them.{builds}")
 
 
 def write_report(plan, asked=None):

@@ -113,7 +113,8 @@ def write_report(plan):
         count=len(rows), design=design_text(study), recordings=len(study.base_sequences),
         findings=findings, best=best_settings(findings), front=list(front_lines(findings)),
         failures=failure_lines(rows), conclusions=conclusion.sentences(findings),
-        warnings=[text for text in (*conclusion.warnings(plan), about_outdated(rows)) if text],
+        warnings=[text for text in (*conclusion.warnings(plan), about_outdated(rows, "--report"))
+                  if text],
         caution=conclusion.caution(findings),
         figures=drawn,
         runs=run_lines(findings, rows), run_columns=RUN_COLUMNS, shown=shown, programs=programs,

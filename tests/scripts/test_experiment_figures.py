@@ -319,13 +319,13 @@ class FiguresTest(PretendedTest):
         self.assertEqual({row["outdated"] for row in rows}, {"options"})
         self.assertEqual(Findings(batch.suite, rows).rows, [])
         page = (self.places.output / "report.html").read_text()
-        self.assertIn("42 of 42 runs outdated: the options changed since", page)
+        self.assertIn("Outdated: 42 of 42 runs; changed since: options. Without --report the", page)
         self.assertNotIn("<h2>Best settings</h2>", page)
         done = subprocess.run(
             [SCRIPTS / "experiment", batch.suite.file, "--build", self.places.build, "--output",
              self.places.output, "--report"], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertIn("42 of 42 runs outdated", done.stdout)
+        self.assertIn("Outdated: 42 of 42 runs", done.stdout)
 
     def test_an_experiment_that_has_not_begun_has_a_page(self):
         batch = self.batch(GRID)

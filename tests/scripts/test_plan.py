@@ -137,8 +137,8 @@ printf 'window: {segments: %s}\\nsensor: {T_body_lidar: []}\\n' $segments
     def test_those_of_other_options_are_marked_and_keep_their_own_options(self):
         done, lines, table = self.report(SUITE.replace("segments: 3", "segments: 7"))
         self.assertEqual(done.returncode, 3)
-        self.assertIn("2 runs: 2 ended well (of which 1 outdated)\n1 of 2 runs outdated: the options "
-                      "changed since.", done.stdout)
+        self.assertIn("2 runs: 2 ended well (of which 1 outdated)\nOutdated: 1 of 2 runs; changed "
+                      "since: options. Without --report and --only the same command", done.stdout)
         self.assertEqual([(line["outdated"], line["window.segments"]) for line in lines],
                          [("", "4"), ("options", "3")])
         self.assertNotIn("sensor.T_body_lidar", lines[0])
@@ -151,7 +151,7 @@ printf 'window: {segments: %s}\\nsensor: {T_body_lidar: []}\\n' $segments
         changed = SUITE.replace("segments: 3", "segments: 7")
         done, _, table = self.report(changed, "--only", "plain/*")
         self.assertEqual(done.returncode, 0)
-        self.assertIn("1 of 2 runs outdated", done.stdout)
+        self.assertIn("Outdated: 1 of 2 runs", done.stdout)
         self.assertIn("0.2500 (outdated)", table)
 
     def test_an_option_that_changed_for_all_runs_has_a_column(self):
