@@ -76,7 +76,7 @@ def failure_lines(rows):
 def reason_of(row):
     if row["outdated"]:
         return f"outdated: {row['outdated']} changed since"
-    return "" if row["result"] == results.OK else row["reason"]
+    return row["evaluation_warnings"] if row["result"] == results.OK else row["reason"]
 
 
 def run_lines(findings, rows):

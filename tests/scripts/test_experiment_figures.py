@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Figures and pages of experiments show what happened, also what failed."""
+import json
 import math
 import re
 import subprocess
@@ -326,6 +327,17 @@ class FiguresTest(PretendedTest):
              self.places.output, "--report"], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("Outdated: 42 of 42 runs", done.stdout)
+
+    def test_doubts_about_the_comparison_are_on_the_page(self):
+        batch = self.batch(GRID)
+        self.finish(batch, bowl)
+        path = self.places.output / batch.runs[0].folder / "evaluation" / "evaluation.json"
+        path.write_text(json.dumps({**json.loads(path.read_text()),
+                                    "warnings": ["/a/trajectory.tum: another unit"]}))
+        experiment_report.write_report(batch)
+        page = (self.places.output / "report.html").read_text()
+        self.assertIn("of which 1 with warnings about the comparison with the truth", page)
+        self.assertIn("trajectory.tum: another unit", page)
 
     def test_an_experiment_that_has_not_begun_has_a_page(self):
         batch = self.batch(GRID)

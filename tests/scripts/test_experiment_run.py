@@ -103,7 +103,8 @@ class ExperimentRunTest(FolderTest):
                                   "      good: {}\n      impossible: {input.stamps_file: no.txt}")
         done = self.experiment("--drop-recordings", text=text)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertIn("2 ended well, 2 with an x", done.stdout)
+        # The body hardly moves in 2 s, so there may be warnings about the comparison.
+        self.assertRegex(done.stdout, r"2 ended well( \(.*\))?, 2 with an x")
         with (self.output / "results.csv").open() as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([(row["way"], row["result"], row["exit_code"]) for row in rows], [
