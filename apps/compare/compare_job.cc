@@ -17,11 +17,18 @@
 #include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
 #include "core/report/draw_script.h"
+#include "core/report/drawn_files.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kStampsToLookAt = 15;
+/// The end of a recording is not known before all is read. On average no scan takes longer, pauses
+/// included.
+constexpr double kLongestScan_s = 1.0;
 
 void PrepareFolder(const CompareRequest& request) {
   std::error_code error;
@@ -35,13 +42,7 @@ void PrepareFolder(const CompareRequest& request) {
   fs::create_directories(request.output, error);
   if (error) throw OutputError(request.output, error.message());
   if (!is_there) return;
-  // What an earlier comparison left would be taken for this one's.
-  for (const char* name :
-       {"comparison.json", "config.yaml", "lockstep.csv", "iterations.csv", "lockstep_summary.csv",
-        "free_summary.csv", "report.html", "free", "figures"}) {
-    fs::remove_all(fs::path(request.output) / name, error);
-    if (error) throw OutputError(request.output, error.message());
-  }
+  RemoveComparison(request.output);
 }
 
 void Write(const CompareRequest& request, const CompareReport& report) {
@@ -72,23 +73,23 @@ void RequireOverlap(const CompareRequest& request) {
                      "Give a truth in TUM's or EuRoC's format.");
   }
   const auto recording = OpenRecording(request.inputs, request.config.input);
+  std::vector<std::int64_t> stamps_ns;
   LidarScan scan;
-  if (!recording->Next(&scan)) return;  // The runs say more.
-  const std::int64_t begin_ns = scan.stamp_ns;
-  const int lidar_id = scan.lidar_id;
-  std::int64_t next_ns = begin_ns;
-  while (next_ns <= begin_ns && recording->Next(&scan)) {
-    if (scan.lidar_id == lidar_id) next_ns = scan.stamp_ns;
+  while (stamps_ns.size() < kStampsToLookAt && recording->Next(&scan)) {
+    stamps_ns.push_back(scan.stamp_ns);
   }
-  // Where the end lies is not known before all is read, and there may be pauses.
-  const std::int64_t end_ns =
-      begin_ns + 10 * static_cast<std::int64_t>(recording->size()) * (next_ns - begin_ns);
-  if (truth.t_ns.back() >= begin_ns && truth.t_ns.front() <= end_ns) return;
+  if (stamps_ns.empty()) return;  // The runs say more.
+  // A few stamps may be wrong, but not the one in the middle.
+  const auto middle = stamps_ns.begin() + static_cast<std::ptrdiff_t>(stamps_ns.size() / 2);
+  std::nth_element(stamps_ns.begin(), middle, stamps_ns.end());
+  const double begin_s = Seconds(*middle) - kLongestScan_s * kStampsToLookAt;
+  const double end_s = Seconds(*middle) + kLongestScan_s * static_cast<double>(recording->size());
+  if (Seconds(truth.t_ns.back()) >= begin_s && Seconds(truth.t_ns.front()) <= end_s) return;
   throw InputError(request.truth,
                    "is of another time than the recording: from " +
                        FormatSeconds(truth.t_ns.front()) + " to " +
-                       FormatSeconds(truth.t_ns.back()) + " s, and the recording begins at " +
-                       FormatSeconds(begin_ns) + " s",
+                       FormatSeconds(truth.t_ns.back()) + " s, and the recording begins at about " +
+                       FormatSeconds(*middle) + " s",
                    "Without --truth the solvers are compared all the same.");
 }
 

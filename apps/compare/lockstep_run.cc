@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/compare/lockstep_run.h"
 
-#include <utility>
-
 #include "core/comparison/forms/ceres_form_solver.h"
 #include "core/comparison/lockstep_csv.h"
 #include "core/odometry/odometry.h"
@@ -14,16 +12,13 @@ std::vector<LockstepTotals> RunLockstep(const CompareRequest& request,
                                         const std::atomic<bool>& stop, Feed* feed) {
   std::vector<LockstepTotals> totals(variants.size());
   LockstepCsvWriter csv(request.output, variants);
+  const auto note = [&](const LockstepRecord& record) {
+    csv.Append(record);
+    totals[record.variant].Add(record);
+  };
   Odometry odometry(request.config.odometry,
-                    [&](const SolverOptions& options, ThreadPool* threads) {
-                      return std::make_unique<LockstepSolver>(
-                          variants, request.lockstep_options,
-                          MakeSolverFactory(request.config.ceres_form)(options, threads), threads,
-                          [&](const LockstepRecord& record) {
-                            csv.Append(record);
-                            totals[record.variant].Add(record);
-                          });
-                    });
+                    MakeLockstepFactory(variants, request.lockstep_options,
+                                        MakeSolverFactory(request.config.ceres_form), note));
   double inlier_share = 0.0;
   odometry.OnWindow([&](const WindowStatistics& window) { inlier_share = window.InlierShare(); });
   *feed = FeedRecording(request, "lockstep", stop, inlier_share, &odometry);

@@ -68,8 +68,8 @@ void ProtectResult(const ConvertRequest& request, const RunResult& result) {
 void WarnOfResult(const fs::path& folder, const RunResult& result) {
   const std::string shortcoming = RunShortcoming(folder);
   if (!shortcoming.empty() && !result.lost_at_ns) {
-    std::fprintf(stderr, "trajlo_convert: warning: %s: of trajlo_run, which said: %s\n",
-                 folder.c_str(), shortcoming.c_str());
+    std::fprintf(stderr, "trajlo_convert: warning: %s: trajlo_run reported: %s\n", folder.c_str(),
+                 shortcoming.c_str());
   }
   if (!result.unknown_keys.empty()) {
     std::string keys;

@@ -58,7 +58,7 @@ void WarnOfRun(const std::filesystem::path& estimate, std::vector<std::string>* 
   if (!is_folder && estimate.filename() != "trajectory.tum") return;
   const std::string shortcoming = IsRunResult(folder) ? RunShortcoming(folder) : "";
   if (!shortcoming.empty()) {
-    warnings->push_back(estimate.string() + ": of trajlo_run, which said: " + shortcoming);
+    warnings->push_back(estimate.string() + ": trajlo_run reported: " + shortcoming);
   }
 }
 

@@ -191,8 +191,10 @@ std::string InfoTable(const RecordingInspection& recording, const std::string& p
     table += "  ! " + recording.warnings[i] + "\n";
   }
   if (recording.damaged) {
-    table += "  ! damaged: everything that can be read is shown (" +
-             CountOf(recording.bytes_lost, "byte") + " lost)\n";
+    table += "  ! damaged: everything that can be read is shown" +
+             (recording.bytes_lost > 0 ? " (" + CountOf(recording.bytes_lost, "byte") + " lost)"
+                                       : std::string()) +
+             "\n";
   }
   const RunAdvice advice = AdviseRun(recording);
   if (advice.command.empty()) return table + "\nno point clouds: there is nothing to run on\n";

@@ -72,4 +72,18 @@ void LockstepSolver::Compare(const Window& window) {
   }
 }
 
+WindowSolverFactory MakeLockstepFactory(const std::vector<SolverVariant>& variants,
+                                        const LockstepOptions& options,
+                                        WindowSolverFactory make_leading,
+                                        LockstepSolver::OnRecord on_record) {
+  const auto has_made_one = std::make_shared<bool>(false);
+  return [=, &variants](const SolverOptions& solver, ThreadPool* threads) {
+    std::unique_ptr<WindowSolver> leading = make_leading(solver, threads);
+    if (std::exchange(*has_made_one, true)) return leading;
+    leading =
+        std::make_unique<LockstepSolver>(variants, options, std::move(leading), threads, on_record);
+    return leading;
+  };
+}
+
 }  // namespace trajlo

@@ -61,4 +61,12 @@ class LockstepSolver final : public WindowSolver {
   std::optional<std::int64_t> window_end_ns_;
 };
 
+/// The first solver that it makes, that of a run, is a LockstepSolver around what `make_leading`
+/// makes. Those that follow try the motions with which the run may begin: they solve nothing on the
+/// side. `variants` must outlive the solvers.
+WindowSolverFactory MakeLockstepFactory(const std::vector<SolverVariant>& variants,
+                                        const LockstepOptions& options,
+                                        WindowSolverFactory make_leading,
+                                        LockstepSolver::OnRecord on_record);
+
 }  // namespace trajlo

@@ -37,7 +37,8 @@ std::string Span(const char* name, double begin_s, double end_s) {
                    "instant?"
                  : FormatText(
                        "Do both clocks agree? (--time_offset_s=%.3f would let both begin together)",
-                       truth_begin - Seconds(estimate.t_ns.front()));
+                       1e-3 * std::round(1e3 * (truth_begin - Seconds(estimate.t_ns.front()))) +
+                           0.0);  // not -0
   } else if (options.rule == AssociationRule::kNearest ||
              options.rule == AssociationRule::kOneToOne) {
     advice = FormatText(

@@ -16,6 +16,8 @@ using Eigen::Vector3d;
 constexpr double kDegrees = 180.0 / M_PI;
 // Standard deviations within which the alignment leaves a turn open.
 constexpr double kOpenSigmas = 3.0;
+// What is known no better is not known.
+constexpr double kNoRotation_deg = 60.0;
 // A smaller turn misleads nobody.
 constexpr double kNoticedDeg = 0.1;
 // A turn is constant if what is left without it is smaller by this.
@@ -104,10 +106,12 @@ RotationDoubt JudgeRotations(const std::vector<PosePair>& aligned, const Alignme
     doubt.determined = false;
     doubt.warnings.push_back(FormatText(
         "ATE [deg] says little: it is mostly one turn of %.3g deg of the whole estimate, and the "
-        "alignment leaves that open. Positions close together or nearly on a line fix the rotation "
-        "to %.2g deg only. RPE [deg] does not depend on it, and --alignment=origin aligns by the "
-        "attitude of the first pose",
-        open_deg, sigma_deg));
+        "alignment leaves that open. Positions close together or nearly on a line %s. RPE [deg] "
+        "does not depend on it, and --alignment=origin aligns by the attitude of the first pose",
+        open_deg,
+        sigma_deg < kNoRotation_deg
+            ? FormatText("fix the rotation to %.2g deg only", sigma_deg).c_str()
+            : "do not fix the rotation"));
     return doubt;
   }
   // Without an alignment by positions a turn may be one between the two worlds.

@@ -32,6 +32,16 @@ Fit FitOf(const std::vector<PosePair>& pairs, bool with_scale) {
   return {std::sqrt(squares / static_cast<double>(pairs.size())), alignment.scale};
 }
 
+/// Of the true positions about their mean.
+double SpreadOf(const std::vector<PosePair>& pairs) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const PosePair& pair : pairs) mean += pair.truth.translation();
+  mean /= static_cast<double>(pairs.size());
+  double squares = 0.0;
+  for (const PosePair& pair : pairs) squares += (pair.truth.translation() - mean).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(pairs.size()));
+}
+
 std::vector<PosePair> Mirrored(std::vector<PosePair> pairs) {
   for (PosePair& pair : pairs) pair.estimate.translation().x() *= -1.0;
   return pairs;
@@ -45,7 +55,10 @@ std::vector<std::string> JudgeShape(const std::vector<PosePair>& pairs, bool wit
     const Fit scaled = FitOf(pairs, true);
     const Fit as_it_is = with_scale ? scaled : FitOf(pairs, false);
     const bool has_other_unit = scaled.scale > kOtherUnit || scaled.scale * kOtherUnit < 1.0;
-    if (!with_scale && has_other_unit && kFarBetter * scaled.rmse_m < as_it_is.rmse_m) {
+    // Of a body that hardly moves, any scale fits.
+    const bool has_shape = kFarBetter * scaled.rmse_m < SpreadOf(pairs);
+    if (!with_scale && has_other_unit && has_shape &&
+        kFarBetter * scaled.rmse_m < as_it_is.rmse_m) {
       warnings.push_back(FormatText(
           "the positions of the ground truth are about %.4g times as large as those of the "
           "estimate: is one of them in another unit, such as mm? Both need metres "

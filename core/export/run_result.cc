@@ -115,7 +115,7 @@ std::string RunShortcoming(const fs::path& folder) {
   const Json& exit = json["exit"];
   const std::string reason = exit.value("reason", ""), message = exit.value("message", "");
   if (reason.empty() || reason == "ok") return "";
-  if (reason == "running") return "the run was killed, or still goes on";
+  if (reason == "running") return "the run was killed or is still running";
   return message.empty() ? "the run ended early (" + reason + ")" : message;
 }
 

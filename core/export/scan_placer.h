@@ -3,14 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
 #include "core/odometry/segments/segmenter.h"
 #include "core/odometry/trajectory/trajectory.h"
+#include "core/odometry/trajectory/trajectory_cursor.h"
 #include "core/scans/lidar_scan.h"
-#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 
@@ -46,17 +45,10 @@ class ScanPlacer {
   const PlacementCounts& counts() const { return counts_; }
 
  private:
-  const SegmentMotion* MotionAt(std::int64_t t_ns, double* alpha);
-  bool IsInSegment(std::size_t end, std::int64_t t_ns) const;
-
   const Trajectory* trajectory_;
   SegmenterOptions segmenter_;
-  std::int64_t max_gap_ns_;
+  TrajectoryCursor cursor_;
   PlacementCounts counts_;
-  /// The index of the pose at the end of the segment that was asked for last.
-  std::size_t end_ = 1;
-  /// Of the segments around the scan, by that index.
-  std::map<std::size_t, SegmentMotion> motions_;
 };
 
 }  // namespace trajlo

@@ -36,8 +36,11 @@ bool TimeProbe::Note(const std::filesystem::path& where, const PointTable& table
   if (recorded_ns) recorded_ns_.push_back(*recorded_ns);
   if (table.count == 0) return true;
   if (with_points_++ == 0) fields_ = table.FieldNames();
-  if (!options_.use_point_times) return true;
   const Column* column = FindTimeColumn(table, options_.field);
+  if (!options_.use_point_times) {
+    if (column != nullptr) NoteIgnored(table, *column);
+    return true;
+  }
   if (column == nullptr && !options_.field.empty()) {
     throw InputError(where,
                      "there is no field '" + options_.field +
@@ -63,6 +66,13 @@ bool TimeProbe::Note(const std::filesystem::path& where, const PointTable& table
   return true;
 }
 
+void TimeProbe::NoteIgnored(const PointTable& table, const Column& column) {
+  const std::optional<TimeSample> sample = SampleTimes(table, column);
+  if (sample && sample->points >= kFewestPoints && sample->first != sample->last) {
+    ignored_field_ = column.name;
+  }
+}
+
 bool TimeProbe::IsComplete() const {
   if (readable_ >= kMostScans || evidence_.samples.size() >= kUsable) return true;
   if (!options_.use_point_times) return readable_ >= kUsable;
@@ -82,6 +92,11 @@ TimeConvention TimeProbe::DecideWithoutTimes() const {
   TimeConvention convention;
   if (!options_.use_point_times) {
     convention.evidence = "no point times: switched off by point_time none";
+    if (!ignored_field_.empty()) {
+      convention.doubt = "points have times (field '" + ignored_field_ +
+                         "'), which input.point_time=none ignores: right for motion-corrected "
+                         "scans only, others blur with every turn";
+    }
   } else if (with_points_ > 0 && evidence_.field.empty()) {
     convention.evidence = "no point times: none of the fields (" + fields_ + ") has a known name";
     convention.doubt = kBlur;

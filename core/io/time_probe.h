@@ -42,6 +42,7 @@ class TimeProbe {
   TimeConvention Decide() const;
 
  private:
+  void NoteIgnored(const PointTable& table, const Column& column);
   TimeConvention DecideWithoutTimes() const;
 
   std::filesystem::path path_;
@@ -49,7 +50,8 @@ class TimeProbe {
   TimeEvidence evidence_;
   std::vector<TimeSample> poor_samples_;  ///< Of scans with few points.
   std::vector<std::int64_t> stamps_ns_, recorded_ns_;
-  std::string fields_;  ///< Of the first scan with points.
+  std::string fields_;         ///< Of the first scan with points.
+  std::string ignored_field_;  ///< Has times, which the options tell to ignore.
   std::size_t readable_ = 0;
   std::size_t with_points_ = 0;
   std::size_t constant_ = 0;  ///< Scans whose points all have one time.

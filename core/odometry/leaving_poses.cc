@@ -35,7 +35,9 @@ void LeavingPoses::Leave(const Window& window, const Matrix6d& covariance, bool 
     return;
   }
   waiting_.AddPose(window, flags, covariance);
-  while (waiting_.Duration_s() > kLongest_s) final_.Append(waiting_.TakeOldest(marginalization_));
+  while (waiting_.Duration_s() > kLongest_s) {
+    final_.Append(waiting_.TakeOldest(marginalization_, *motion_prior_));
+  }
 }
 
 void LeavingPoses::AddSegment(Segment segment) {
@@ -50,7 +52,7 @@ void LeavingPoses::AddGap(std::int64_t end_ns) {
 /// solutions from where they are, and from where the motion prior alone has them between the ends,
 /// the one that brings more points onto planes is taken. The present window stays as it is. (The
 /// map keeps the planes that were asked for, so later windows may differ by those.)
-void LeavingPoses::LookBack(const Window& newest, const Estimate& estimate) {
+void LeavingPoses::SmoothBack(const Window& newest, const Estimate& estimate) {
   if (waiting_.is_empty()) return;
   waiting_.Meet(newest);
   if (waiting_.has_jumped()) {

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "core/odometry/trajectory/final_poses.h"
-#include "core/odometry/window/hindsight.h"
+#include "core/odometry/weights/motion_prior.h"
+#include "core/odometry/window/interval_smoother.h"
 #include "core/odometry/window/marginalize.h"
 #include "core/odometry/window/window.h"
 
@@ -20,8 +21,9 @@ class LeavingPoses {
   /// Estimates a window from its poses on, as any other; nothing if that fails.
   using Estimate = std::function<std::optional<Window>(Window)>;
 
-  explicit LeavingPoses(const MarginalizationOptions& marginalization)
-      : marginalization_(marginalization) {}
+  /// `motion_prior` must outlive it.
+  LeavingPoses(const MarginalizationOptions& marginalization, const MotionPrior* motion_prior)
+      : marginalization_(marginalization), motion_prior_(motion_prior) {}
 
   void OnPose(FinalPoses::Callback callback) { final_.OnPose(std::move(callback)); }
   /// Whether anybody asks for covariances.
@@ -44,7 +46,7 @@ class LeavingPoses {
   void AddGap(std::int64_t end_ns);
 
   /// The doubt is over in `newest`, the present window: what waits is estimated with it, and final.
-  void LookBack(const Window& newest, const Estimate& estimate);
+  void SmoothBack(const Window& newest, const Estimate& estimate);
   /// What waits is final as it is.
   void Settle();
 
@@ -58,8 +60,9 @@ class LeavingPoses {
 
  private:
   const MarginalizationOptions marginalization_;
+  const MotionPrior* motion_prior_;
   FinalPoses final_;
-  Hindsight waiting_;
+  IntervalSmoother waiting_;
   std::optional<std::int64_t> lost_at_ns_;
 };
 

@@ -45,7 +45,7 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
                   rig_.Apply(&segment);
                   Take(std::move(segment));
                   TellAhead();
-                  tracker_.poses().HandOn();
+                  if (!is_finishing_) HandOn();
                 }),
       rig_(options.segmenter.learn_rig),
       tracker_(options_, make_solver, &threads_, &rig_) {}
@@ -53,13 +53,27 @@ Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& ma
 void Odometry::AddScan(const LidarScan& scan) { segments_.Add(scan); }
 
 void Odometry::Finish() {
-  segments_.Finish();
-  if (beginning_) Start();
-  if (search_ && search_->HasPoints()) Search(true);
-  if (beginning_) Start();
-  tracker_.EndWindow(std::numeric_limits<std::int64_t>::max());
-  tracker_.poses().Settle();
-  TellAhead();
+  is_finishing_ = true;
+  if (!is_finished_) {
+    segments_.Finish();
+    if (beginning_) Start();
+    if (search_ && search_->HasPoints()) Search(true);
+    if (beginning_) Start();
+    tracker_.EndWindow(std::numeric_limits<std::int64_t>::max());
+    tracker_.poses().Settle();
+    TellAhead();
+    is_finished_ = true;
+  }
+  HandOn();
+}
+
+/// Calls back for all that is new, when nothing is half done: a callback may throw.
+void Odometry::HandOn() {
+  while (!windows_to_hand_on_.empty()) {
+    const WindowStatistics statistics = windows_to_hand_on_.front();
+    windows_to_hand_on_.pop_front();
+    on_window_(statistics);
+  }
   tracker_.poses().HandOn();
 }
 
@@ -98,7 +112,7 @@ void Odometry::Begin(Beginning beginning) {
   beginning_ = std::move(beginning);
   SegmentCloud& first = beginning_->segments.front();
   // Nothing was measured between the scan before it and its own time.
-  if (first.IsInstant()) first.begin_ns = first.end_ns;
+  if (first.is_instant) first.begin_ns = first.end_ns;
   if (beginning_->IsWhole(options_.initialization)) Start();
 }
 
@@ -132,7 +146,7 @@ void Odometry::Start() {
   }
   const SE3& T_begin = beginning.T_world_begin;
   std::size_t in_map = segments.size();
-  if (segments.front().IsInstant()) {
+  if (segments.front().is_instant) {
     in_map = 1;
     tracker_.BeginMap({segments.front()}, {T_begin, T_begin}, motion.velocity, beginning.flags);
   } else if (motion.is_at_rest || is_cut_short || segments.size() < 2) {
@@ -169,7 +183,7 @@ void Odometry::Step(SegmentCloud cloud) {
   }
   statistics->index = windows_++;
   statistics->milliseconds_segment = segments_.TakeMilliseconds();
-  if (on_window_) on_window_(*statistics);
+  if (on_window_) windows_to_hand_on_.push_back(*statistics);
 }
 
 /// From the end of the window on, nobody knows where the body is.
@@ -198,7 +212,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
   std::vector<SegmentCloud> segments = search_->TakeSegments();
   search_.reset();
   // A scan of one time is in the map already.
-  if (sweep.cloud.IsInstant()) return;
+  if (sweep.cloud.is_instant) return;
   for (SegmentCloud& segment : segments) Take(std::move(segment));
 }
 

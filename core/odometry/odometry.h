@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -38,7 +39,8 @@ class Odometry {
   /// Takes a scan as it was recorded, whatever its stamp (see ScanSequencer), and processes every
   /// window that it completes.
   void AddScan(const LidarScan& scan);
-  /// Processes what is left and settles all control poses.
+  /// Processes what is left and settles all control poses. If a callback throws, a second call goes
+  /// on with what was not handed on.
   void Finish();
 
   /// Called with every scan that is used, in order, its times as they are understood. If there are
@@ -49,7 +51,8 @@ class Odometry {
     segments_.OnScan(std::move(callback));
   }
 
-  /// Called after every window, on the thread that called AddScan or Finish.
+  /// Called for every window, once the segment that completed it is taken, on the thread that
+  /// called AddScan or Finish.
   void OnWindow(std::function<void(const WindowStatistics&)> callback) {
     on_window_ = std::move(callback);
   }
@@ -75,6 +78,7 @@ class Odometry {
  private:
   void Take(SegmentCloud cloud);
   void TellAhead();
+  void HandOn();
   // A map is to begin.
   void Begin(Beginning beginning);
   void TakeFirst(SegmentCloud cloud);
@@ -98,7 +102,9 @@ class Odometry {
   Tracker tracker_;
   std::optional<Beginning> beginning_ = Beginning{};  ///< Until a map begins.
   std::optional<ReturnSearch> search_;                ///< While nobody knows where the body is.
+  bool is_finishing_ = false, is_finished_ = false;
   std::function<void(const WindowStatistics&)> on_window_;
+  std::deque<WindowStatistics> windows_to_hand_on_;
   std::int64_t windows_ = 0;
 };
 

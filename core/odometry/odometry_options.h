@@ -20,8 +20,8 @@ struct WindowOptions {
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kUsers, "segments", segments, Range<int>{1, 100},
-      "The most segments that are estimated together, the paper's K (paper: 4). While a fast turn "
-      "shows little of the map, they are fewer.");
+      "The largest number of segments in the window, the paper's K (paper: 4). While a fast turn "
+      "shows little of the map, there are fewer.");
     d(OptionFor::kExperts, "deskewing", deskewing,
       Names<Deskewing>{{"estimated", Deskewing::kEstimated}, {"predicted", Deskewing::kPredicted}},
       "What moves the points of a segment to one time: the estimated trajectory, again in every "

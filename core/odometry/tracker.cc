@@ -42,7 +42,7 @@ Tracker::Tracker(const OdometryOptions& options, const WindowSolverFactory& make
       motion_prior_(options.motion_prior),
       estimator_(options.registration, options.solver, make_solver, threads),
       window_search_(options.initialization, options.map, options.registration),
-      poses_(options.marginalization) {}
+      poses_(options.marginalization, &motion_prior_) {}
 
 void Tracker::BeginMap(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,
                        const Vector6d& velocity, unsigned flags) {
@@ -71,7 +71,7 @@ std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
   statistics.restless = RestlessStep(window_.segments.back().cloud);
   estimator_.AssociateAndSolve(map_, &window_, &statistics);
   if (doubt_.IsContradicted(statistics.agreement)) {
-    estimator_.LookAgain(map_, predicted, &motion_prior_, &window_, &statistics);
+    estimator_.Reassociate(map_, predicted, &motion_prior_, &window_, &statistics);
   }
   // Before the points ever held the body, there is no prediction to trust.
   if (was_held()) estimator_.LeaveOutUnsupported(predicted, &window_, &statistics);
@@ -83,11 +83,11 @@ std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
   BelieveOrRevert(predicted, statistics);
   LearnAndJudge(predicted.back(), &statistics);
   Watch(&statistics);
-  if (doubt_.IsSure()) LookBack(&statistics);
+  if (doubt_.IsSure()) SmoothBack(&statistics);
   const int to_keep = SegmentsToKeep(window_.segments.back(), options_.window.segments);
   while (window_.size() > to_keep) Leave(&statistics);
   NoteLoss(&statistics);
-  LookAround(statistics.agreement);
+  RelocalizeWindow(statistics.agreement);
   return statistics;
 }
 
@@ -108,11 +108,16 @@ bool Tracker::IsBlind() const {
          support_.IsBlind(window_.EndNs(), motion_prior_.density());
 }
 
-/// As if the newest segment had not come.
+/// As if the newest segment had not come: the others are estimated without it.
 void Tracker::TakeBack(const std::vector<SE3>& predicted, SegmentCloud* cloud) {
   *cloud = std::move(window_.segments.back().cloud);
-  Revert(predicted, &window_);
+  window_.BeginAgainAt(predicted);
   window_.segments.pop_back();
+  if (window_.size() == 0) return;
+  WindowStatistics again;
+  estimator_.AssociateAndSolve(map_, &window_, &again);
+  estimator_.LeaveOutUnsupported(predicted, &window_, &again);
+  if (!again.is_finite) Revert(predicted, &window_);
 }
 
 void Tracker::BelieveOrRevert(const std::vector<SE3>& predicted,
@@ -175,8 +180,8 @@ void Tracker::Watch(WindowStatistics* statistics) {
 }
 
 /// What left the window in doubt is estimated once more.
-void Tracker::LookBack(WindowStatistics* statistics) {
-  poses_.LookBack(window_, [&](Window joined) -> std::optional<Window> {
+void Tracker::SmoothBack(WindowStatistics* statistics) {
+  poses_.SmoothBack(window_, [&](Window joined) -> std::optional<Window> {
     motion_prior_.Apply(&joined);
     const std::vector<SE3> start = joined.Poses();
     WindowStatistics rounds;
@@ -231,7 +236,7 @@ void Tracker::NoteLoss(WindowStatistics* statistics) {
 
 /// While the doubt lasts, the map does not grow, and a body at the right place would soon be out of
 /// it. Where the window is clearly found, the body is.
-void Tracker::LookAround(double agreement) {
+void Tracker::RelocalizeWindow(double agreement) {
   const std::optional<SweepMotion> found =
       window_search_.Look(window_, doubt_, agreement, TurnAxis(), map_, threads_);
   if (!found) return;
@@ -258,6 +263,7 @@ void Tracker::BeginBehindPause(std::int64_t end_ns) {
   EndWindow(end_ns);
   window_ = MakeWindow(end_ns, window_.T_world_begin);
   window_.begin_flags = kFlagGap;
+  motion_prior_.NoteGap();
 }
 
 void Tracker::ForgetMap(std::int64_t end_ns) {
@@ -290,6 +296,8 @@ void Tracker::Resume(const ReturnSweep& found) {
     EnterMap(cloud, T_world_begin, T_world_begin, threads_, &map_);
   }
   support_.Supported(cloud.begin_ns);
+  motion_prior_.NoteGap();
+  doubt_.Dispel(cloud.begin_ns);
   loss_watch_ = LossWatch();
 }
 
@@ -298,7 +306,8 @@ void Tracker::Lose(std::int64_t t_ns) {
   EndWindow(t_ns);
   poses_.Settle();
   map_ = MapPyramid(options_.map);
-  // What was usual there says nothing here.
+  // What was usual there says nothing here, and wrong windows taught wrong motions.
+  motion_prior_ = MotionPrior(options_.motion_prior);
   inlier_watch_ = InlierWatch();
   loss_watch_ = LossWatch();
   support_ = SupportWatch();

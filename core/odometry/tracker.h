@@ -77,11 +77,11 @@ class Tracker {
   void NoteSupport();
   void LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics);
   void Watch(WindowStatistics* statistics);
-  void LookBack(WindowStatistics* statistics);
+  void SmoothBack(WindowStatistics* statistics);
   void Leave(WindowStatistics* statistics);
   void SettleFront();
   void NoteLoss(WindowStatistics* statistics);
-  void LookAround(double agreement);
+  void RelocalizeWindow(double agreement);
   Eigen::Vector3d TurnAxis() const;
 
   const OdometryOptions options_;

@@ -33,8 +33,8 @@ void WindowEstimator::AssociateAndSolve(const MapPyramid& map, Window* window,
   s->agreement = AgreementOf(*window, *newest).worst;
 }
 
-void WindowEstimator::LookAgain(const MapPyramid& map, const std::vector<SE3>& predicted,
-                                MotionPrior* motion_prior, Window* window, WindowStatistics* s) {
+void WindowEstimator::Reassociate(const MapPyramid& map, const std::vector<SE3>& predicted,
+                                  MotionPrior* motion_prior, Window* window, WindowStatistics* s) {
   Window first = *window;
   window->BeginAgainAt(predicted);
   Segment& newest = window->segments.back();

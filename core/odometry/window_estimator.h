@@ -34,8 +34,8 @@ class WindowEstimator {
   /// look again from the prediction, while its attitude may be anything near. If they agree better
   /// then, and hold it, the prior follows; else all stays as it was. (A hand before the LiDAR has
   /// few points, which agree with whatever is near.)
-  void LookAgain(const MapPyramid& map, const std::vector<SE3>& predicted,
-                 MotionPrior* motion_prior, Window* window, WindowStatistics* statistics);
+  void Reassociate(const MapPyramid& map, const std::vector<SE3>& predicted,
+                   MotionPrior* motion_prior, Window* window, WindowStatistics* statistics);
 
   /// Solves again without the points that do not hold their segments, from the prediction: what is
   /// left agrees with it. Does nothing if all segments are held.

@@ -26,11 +26,30 @@ nlohmann::json ReadEstimates(const fs::path& folder) {
   return has_some && json["estimates"].is_array() ? json["estimates"] : nlohmann::json();
 }
 
+/// Names that scripts/draw_comparison.py gives to its figures.
+constexpr const char* kComparisonFigures[] = {"cost", "stages", "distances", "points", "free"};
+
 void Remove(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return;
   fs::remove(file, error);
   if (error) throw OutputError(file, "the earlier result cannot be removed: " + error.message());
+}
+
+/// What somebody else put there stays, and with it the folder.
+void RemoveIfEmpty(const fs::path& folder) {
+  std::error_code error;
+  const bool is_folder = fs::is_directory(fs::symlink_status(folder, error));
+  if (is_folder && fs::is_empty(folder, error)) fs::remove(folder, error);
+}
+
+template <typename Names>
+void AddFigures(const fs::path& folder, const Names& names, std::vector<fs::path>* files) {
+  for (const char* name : names) {
+    for (const char* kind : {".svg", ".pdf", ".png"}) {
+      files->push_back(folder / "figures" / (std::string(name) + kind));
+    }
+  }
 }
 
 }  // namespace
@@ -54,18 +73,32 @@ void RemoveWhatIsAboutResult(const fs::path& folder) {
   std::vector<fs::path> files;
   // Without its summary, files of these names are none of an evaluation.
   if (ReadEstimates(folder).is_array()) files = EvaluationFiles(folder);
-  for (const char* name : kFigures) {
-    for (const char* kind : {".svg", ".pdf", ".png"}) {
-      files.push_back(folder / "figures" / (std::string(name) + kind));
-    }
-  }
+  AddFigures(folder, kFigures, &files);
   files.push_back(folder / "run.html");
   // The summary last: while a file is left, it says what the others are.
   for (auto file = files.rbegin(); file != files.rend(); ++file) Remove(*file);
+  RemoveIfEmpty(folder / "figures");
+}
+
+void RemoveComparison(const fs::path& folder) {
+  std::vector<fs::path> files;
+  AddFigures(folder, kComparisonFigures, &files);
+  for (const char* name : {"config.yaml", "lockstep.csv", "iterations.csv", "lockstep_summary.csv",
+                           "free_summary.csv", "report.html"}) {
+    files.push_back(folder / name);
+  }
+  std::vector<fs::path> folders = {folder / "figures"};
   std::error_code error;
-  const fs::path figures = folder / "figures";
-  const bool is_folder = fs::is_directory(fs::symlink_status(figures, error));
-  if (is_folder && fs::is_empty(figures, error)) fs::remove(figures, error);
+  for (const auto& variant : fs::directory_iterator(folder / "free", error)) {
+    files.push_back(variant.path() / "trajectory.tum");
+    files.push_back(variant.path() / "windows.csv");
+    folders.push_back(variant.path());
+  }
+  folders.push_back(folder / "free");
+  // The summary last: while a file is left, it says what the others are.
+  files.push_back(folder / "comparison.json");
+  for (const fs::path& file : files) Remove(file);
+  for (const fs::path& empty : folders) RemoveIfEmpty(empty);
 }
 
 }  // namespace trajlo

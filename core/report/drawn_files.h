@@ -15,4 +15,8 @@ std::vector<std::filesystem::path> EvaluationFiles(const std::filesystem::path& 
 /// and links. Throws OutputError.
 void RemoveWhatIsAboutResult(const std::filesystem::path& folder);
 
+/// Removes an earlier comparison from its folder: what trajlo_compare_solvers and
+/// draw_comparison.py have written, and nothing else. Throws OutputError.
+void RemoveComparison(const std::filesystem::path& folder);
+
 }  // namespace trajlo

@@ -55,7 +55,9 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
                                     "; the poses may be off by more than it seems");
   }
   warn_of_share("few_inliers", " too few points agree with the map; the poses there may be wrong");
-  warn_of_share("jump", " poses jump as no body does, or are in doubt since; they may be wrong");
+  warn_of_share("jump",
+                " poses jump further than a body can move, or have been in doubt since then; they "
+                "may be wrong");
   return warnings;
 }
 

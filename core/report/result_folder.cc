@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A summary of a run that was killed, or that still goes on.
+/// A summary of a run that was killed or is still running.
 bool IsUnfinished(const fs::path& file) {
   std::error_code error;
   if (file.filename() != "run.json" || !fs::is_regular_file(file, error)) return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/rig_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/io/format_text.h"
@@ -47,18 +48,28 @@ std::string CorrectionsText(const std::vector<LidarPlace>& rig) {
 
 std::vector<std::string> RigWarnings(const std::vector<LidarPlace>& rig) {
   std::vector<std::string> warnings;
+  // Without a map nothing was looked at; with one, the reference is confirmed.
+  const bool has_map = std::any_of(rig.begin(), rig.end(), [](const LidarPlace& place) {
+    return place.evidence == RigEvidence::kConfirmed;
+  });
   for (const LidarPlace& place : rig) {
     const std::string name = "LiDAR " + std::to_string(place.lidar) + " (counted from 0) ";
     if (place.evidence == RigEvidence::kContradicted) {
       warnings.push_back(name +
-                         "is not where sensor.T_body_lidar says, nor near it: its points lie "
-                         "beside what the others see, and were kept out of the map");
+                         "is not where sensor.T_body_lidar says, nor near it: its points "
+                         "do not match what the other LiDARs see, and were kept out of the map");
       continue;
     }
     if (place.evidence == RigEvidence::kNone) {
       warnings.push_back(name +
                          "sees nothing that the others saw before: nothing confirms its "
                          "sensor.T_body_lidar");
+      continue;
+    }
+    if (place.evidence == RigEvidence::kNotYet && has_map) {
+      warnings.push_back(name +
+                         "was not seen together with the others from enough places: nothing "
+                         "confirms its sensor.T_body_lidar");
       continue;
     }
     const bool is_near = place.moved_m < kFar_m && place.turned_rad < kFar_rad &&

@@ -80,6 +80,10 @@ std::string RunSummary::Shortcomings() const {
     parts.push_back("LiDAR " + std::to_string(place.lidar) +
                     " does not fit the others: sensor.T_body_lidar is wrong");
   }
+  if (times.longest_silence_s > kSizeableShare * DataSeconds()) {
+    parts.push_back("a LiDAR is silent for " + Seconds(times.longest_silence_s) +
+                    " at the beginning or the end");
+  }
   if (times.clocks_may_differ) parts.emplace_back("the clocks of the LiDARs may differ");
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : ", and ") + part;
@@ -111,7 +115,7 @@ void RunSummary::AddOddTimes(std::vector<std::string>* parts) const {
                      "are not those of their stamps");
   }
   if (IsSizeable(times.odd_point_times)) {
-    parts->push_back(of_scans + "some have one time for all points, the others one for each");
+    parts->push_back(of_scans + "some have a single time for all points, or none");
   }
   if (IsSizeable(times.stuck)) {
     parts->push_back(std::to_string(times.stuck) + " " + of_scans +
@@ -177,7 +181,7 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
   if (flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
     parts->push_back(
         FormatText("%.2f of %.2f s have a flag (flags.csv)", flags.any().seconds, flags.seconds()) +
-        ": hardly a pose can be relied on");
+        ": almost no pose can be trusted");
   } else if (open.longest_s > kLongOpen_s) {
     parts->push_back(
         FormatText("for %.2f s on end the points left a direction open (flag degenerate)",
@@ -185,8 +189,8 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
         ": nothing tells how the body moved along or about it");
   } else if (jump.seconds > kDoubtfulShare * flags.seconds()) {
     parts->push_back(
-        FormatText("for %.2f of %.2f s poses jump as no body does, or are in doubt "
-                   "since (flag jump)",
+        FormatText("for %.2f of %.2f s poses jump further than a body can move, or have been "
+                   "in doubt since then (flag jump)",
                    jump.seconds, flags.seconds()));
   }
 }

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/odometry/segments/turn_up.h"
+#include "core/odometry/trajectory/trajectory_cursor.h"
 #include "core/scans/nanoseconds.h"
-#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -17,37 +17,6 @@ double EvenShare(std::size_t index) {
   const double x = static_cast<double>(index + 1) * kGoldenRatio;
   return 1.0 - (x - std::floor(x));
 }
-
-/// Takes points to the world whose times mostly lie in the interval of the one before.
-class PlaceAlong {
- public:
-  /// `trajectory` must outlive it.
-  explicit PlaceAlong(const Trajectory& trajectory) : poses_(trajectory.poses()) {}
-
-  /// False outside the trajectory.
-  bool Enter(std::int64_t t_ns) {
-    if (t_ns >= begin_ns_ && t_ns <= end_ns_) return true;
-    if (poses_.size() < 2 || t_ns < poses_.front().t_ns || t_ns > poses_.back().t_ns) return false;
-    const auto end =
-        std::lower_bound(poses_.begin() + 1, poses_.end(), t_ns,
-                         [](const ControlPose& pose, std::int64_t t) { return pose.t_ns < t; });
-    const auto begin = end - 1;
-    begin_ns_ = begin->t_ns;
-    end_ns_ = end->t_ns;
-    motion_ = SegmentMotion(begin->T_world_body, end->T_world_body);
-    return true;
-  }
-  /// At a time of the interval that was entered.
-  Eigen::Vector3d World(std::int64_t t_ns, const Eigen::Vector3d& p_body) const {
-    return motion_.ToWorld(
-        static_cast<double>(t_ns - begin_ns_) / static_cast<double>(end_ns_ - begin_ns_), p_body);
-  }
-
- private:
-  const std::vector<ControlPose>& poses_;
-  std::int64_t begin_ns_ = 1, end_ns_ = 0;  ///< None at first.
-  SegmentMotion motion_{SE3(), SE3()};
-};
 
 /// The key of a point that is never taken: it compares as smaller than none.
 constexpr float kUnusable = std::numeric_limits<float>::quiet_NaN();
@@ -140,7 +109,7 @@ void ScanSampler::DropEveryOther() {
 std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory,
                                             const std::vector<LidarPlace>& rig) const {
   const auto turn_rad = static_cast<float>(segmenter_.vertical_correction_deg * M_PI / 180.0);
-  PlaceAlong place_along(trajectory);
+  TrajectoryCursor cursor(&trajectory, Nanoseconds(segmenter_.max_gap_s));
   std::vector<WorldPoint> points;
   std::size_t kept_points = 0;
   for (const auto& [index, moment] : moments_) kept_points += moment.points.size();
@@ -150,10 +119,10 @@ std::vector<WorldPoint> ScanSampler::Deskew(const Trajectory& trajectory,
     for (const Kept& kept : moment.points) {
       const LidarPlace lidar = kept.lidar < rig.size() ? rig[kept.lidar] : LidarPlace();
       const std::int64_t t_ns = kept.t_ns + Nanoseconds(lidar.clock_moved_s);
-      if (!place_along.Enter(t_ns)) continue;
+      if (cursor.MoveTo(t_ns) != TrajectoryCursor::Time::kCovered) continue;
       const Eigen::Vector3d p_lidar = TurnUp(kept.p_lidar_m, turn_rad).cast<double>();
       const Eigen::Vector3d p_body = lidar.T_body_lidar * p_lidar;
-      points.push_back({place_along.World(t_ns, p_body).cast<float>(), kept.intensity, moment_ns});
+      points.push_back({cursor.ToWorld(p_body).cast<float>(), kept.intensity, moment_ns});
     }
   }
   return points;

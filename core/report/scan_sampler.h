@@ -43,8 +43,9 @@ class ScanSampler {
 
   void Note(const LidarScan& scan);
 
-  /// The points kept so far that `trajectory` covers, deskewed, moment by moment, with the LiDARs
-  /// where they were found to be; one that is not among them is the body, with the right time.
+  /// The points kept so far that `trajectory` covers, but for its pauses, deskewed, moment by
+  /// moment, with the LiDARs where they were found to be; one that is not among them is the body,
+  /// with the right time.
   std::vector<WorldPoint> Deskew(const Trajectory& trajectory,
                                  const std::vector<LidarPlace>& rig) const;
 

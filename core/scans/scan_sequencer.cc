@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -107,6 +108,7 @@ void ScanSequencer::Finish() {
   }
   DoubtTheBegin();
   CompareSpans();
+  NoteSilence();
   CompareDrifts();
   for (const LidarTrack& track : tracks_) {
     report_.exchanged += track.exchanged();
@@ -249,6 +251,28 @@ void ScanSequencer::CompareSpans() {
            LidarName(first_lidar_) + " and ends " + SecondsText(end_ns) +
            " after it: if both recorded at the same time, their clocks differ, and "
            "input.clock_offset_s of one must be set");
+  }
+}
+
+/// One that begins late, or ends early, where no shifted clock explains that.
+void ScanSequencer::NoteSilence() {
+  if (report_.clocks_may_differ) return;
+  std::int64_t begin_ns = std::numeric_limits<std::int64_t>::max(), end_ns = -begin_ns;
+  for (const LidarTrack& track : tracks_) {
+    if (!track.clock().has_started()) continue;
+    begin_ns = std::min(begin_ns, track.first_ns());
+    end_ns = std::max(end_ns, track.clock().last().begin_ns);
+  }
+  const auto note = [&](std::size_t lidar, const char* when, std::int64_t silent_ns) {
+    if (silent_ns <= kSmallShift_ns) return;
+    report_.longest_silence_s = std::max(report_.longest_silence_s, Seconds(silent_ns));
+    Remark(LidarName(lidar) + ": nothing was heard of it for the " + when + " " +
+           SecondsText(silent_ns));
+  };
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!tracks_[i].clock().has_started()) continue;
+    note(i, "first", tracks_[i].first_ns() - begin_ns);
+    note(i, "last", end_ns - tracks_[i].clock().last().begin_ns);
   }
 }
 

@@ -63,6 +63,7 @@ class ScanSequencer {
   void Release();
   void Describe(std::size_t lidar);
   void CompareSpans();
+  void NoteSilence();
   void CompareDrifts();
   void Remark(const std::string& sentence);
   void Hand(const LidarScan& scan, std::int64_t arrival);

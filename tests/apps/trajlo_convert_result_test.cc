@@ -264,7 +264,7 @@ TEST_F(TrajloConvertResult, ARunThatDidNotEndWellIsWarnedOf) {
   WriteFile(Path("killed/run.json"), summary);
   const Outcome outcome = Convert({Path("killed"), Path("killed.tum")});
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.err, HasSubstr("the run was killed, or still goes on"));
+  EXPECT_THAT(outcome.err, HasSubstr("the run was killed or is still running"));
   EXPECT_EQ(Convert({Path("result"), Path("well.tum")}).err, "");
 }
 

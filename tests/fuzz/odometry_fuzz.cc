@@ -28,7 +28,8 @@ OdometryOptions RandomOptions(fuzz::ByteSource* bytes) {
   options.marginalization.first_estimate_jacobians = bytes->Bool();
   options.marginalization.enabled = !bytes->Bool();
   options.motion_prior.kind =
-      bytes->OneOf({MotionPriorKind::kWhiteNoiseAcceleration, MotionPriorKind::kPseudoVelocity});
+      bytes->OneOf({MotionPriorKind::kWhiteNoiseAcceleration, MotionPriorKind::kPseudoVelocity,
+                    MotionPriorKind::kNone});
   return options;
 }
 

@@ -12,7 +12,7 @@ constexpr double kShortSegment_s = 0.03;
 }  // namespace
 
 StepSize RestlessStep(const SegmentCloud& newest) {
-  const double seen_s = newest.IsInstant() ? 0.0 : newest.Duration_s();
+  const double seen_s = newest.is_instant ? 0.0 : newest.Duration_s();
   const double longer = std::max(1.0, seen_s / kShortSegment_s);
   const double factor = longer * std::sqrt(longer);
   return {kRestlessStep.translation_m * factor, kRestlessStep.rotation_rad * factor};

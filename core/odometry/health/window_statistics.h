@@ -49,7 +49,7 @@ struct WindowStatistics {
   int searched = 0;  ///< Map queries over all rounds; the others kept their plane.
   int rounds = 0;    ///< associate ↔ solve rounds.
   StepSize restless = kRestlessStep;
-  int restless_rounds = 0;  ///< After so many of them, a larger step than that was to come.
+  int restless_rounds = 0;  ///< The last round after which a step larger than that was expected.
   int iterations = 0;       ///< Solver steps over all rounds.
   int rejected_steps = 0;   ///< Those that Ceres did not take because they raise the cost.
   WindowCost cost;          ///< At the solution.

@@ -25,7 +25,8 @@ struct MapOptions {
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "kind", kind,
       Names<MapKind>{{"voxel_hash", MapKind::kVoxelHash}, {"kd_tree", MapKind::kKdTree}},
-      "voxel_hash is fast, kd_tree finds the exact neighbours.");
+      "voxel_hash is fast; kd_tree finds the exact neighbours, where the hash has five points "
+      "around.");
     d(OptionFor::kUsers, "voxel_size_m", voxel_size_m, Range<double>{1e-2, 20.0},
       "Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).");
     d(OptionFor::kExperts, "min_point_spacing_m", min_point_spacing_m, Range<double>{0.0, 10.0},

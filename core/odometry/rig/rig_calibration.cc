@@ -54,8 +54,7 @@ Eigen::Index Row(std::size_t lidar) { return static_cast<Eigen::Index>(kUnknowns
 /// The motion of the body over the oldest segment, [rho; theta] per second, body frame: by v c a
 /// point has moved c seconds later. Zero where points have no time of their own.
 Vector6d TwistOf(const Window& window) {
-  return window.segments.front().cloud.IsInstant() ? Vector6d(Vector6d::Zero())
-                                                   : window.Velocity(0);
+  return window.segments.front().cloud.is_instant ? Vector6d(Vector6d::Zero()) : window.Velocity(0);
 }
 
 double PlacesPassed(const SE3& T_begin, const SE3& T_end) {

@@ -20,7 +20,8 @@ enum class RigEvidence {
   kConfirmed,     ///< Also of the reference, and where nothing is to be learnt.
 };
 
-/// Where the LiDARs of a rig really are, and what their clocks really show, found while running.
+/// Online calibration: the extrinsics and the time offsets of the LiDARs of a rig, found while
+/// running.
 ///
 /// Poses that were calibrated, or read from a drawing, are off by a centimetre and a few tenths of
 /// a degree, and clocks by a few milliseconds. Points of two LiDARs then make two walls of one, and

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -42,6 +41,8 @@ struct SegmentCloud {
   std::int64_t end_ns = 0;
   /// True for the one long, empty segment that stands for a pause in the recording.
   bool is_gap = false;
+  /// True for scans that were motion-corrected or have no point times: all belongs to the end.
+  bool is_instant = false;
   /// Where each LiDAR is in the body frame.
   std::vector<Eigen::Vector3d> lidar_origins_body_m;
   /// What the points of each LiDAR are corrected by.
@@ -50,12 +51,6 @@ struct SegmentCloud {
   std::vector<SegmentPoint> registration_points;  ///< Coarse subset: what is registered.
 
   double Duration_s() const { return Seconds(end_ns - begin_ns); }
-  /// A motion-corrected scan: every point belongs to the end.
-  bool IsInstant() const {
-    return !map_points.empty() &&
-           std::all_of(map_points.begin(), map_points.end(),
-                       [](const SegmentPoint& point) { return point.alpha == 1.0F; });
-  }
 };
 
 }  // namespace trajlo

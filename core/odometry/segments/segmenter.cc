@@ -147,7 +147,10 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
     Eigen::Vector3f p_body;
     if (!Accept(point, T_body_lidar, &p_body)) continue;
     // Mostly the slot of the point before.
-    if (slot == nullptr || !slot->Holds(t_ns)) slot = &SlotAt(t_ns);
+    if (slot == nullptr || !slot->Holds(t_ns)) {
+      slot = &SlotAt(t_ns);
+      slot->is_instant = false;
+    }
     const double alpha = static_cast<double>(t_ns - slot->begin_ns) /
                          static_cast<double>(slot->end_ns - slot->begin_ns);
     slot->points.push_back({p_body, static_cast<float>(alpha), static_cast<std::uint16_t>(lidar)});
@@ -201,6 +204,7 @@ void Segmenter::AddDiscrete(const LidarScan& scan) {
     if (!Accept(point, T_body_lidar, &p_body)) continue;
     slot->points.push_back({p_body, 1.0F, static_cast<std::uint16_t>(lidar)});
   }
+  slot->is_instant = !slot->points.empty();
   newest_ns_[lidar] = std::max(newest_ns_[lidar], slot->end_ns);
 }
 
@@ -234,6 +238,7 @@ std::optional<SegmentCloud> Segmenter::Next() {
   cloud.begin_ns = slot.begin_ns;
   cloud.end_ns = slot.end_ns;
   cloud.is_gap = slot.is_gap;
+  cloud.is_instant = slot.is_instant;
   usual_points_ = slot.points.size() + slot.points.size() / 8;
   slot.clocks_s.resize(newest_ns_.size());
   for (std::size_t lidar = 0; lidar < newest_ns_.size(); ++lidar) {

@@ -93,6 +93,7 @@ class Segmenter {
     bool is_gap;
     std::vector<SegmentPoint> points;
     std::vector<double> clocks_s;  ///< By which the points of each LiDAR were corrected.
+    bool is_instant = false;
 
     bool Holds(std::int64_t t_ns) const { return t_ns >= begin_ns && t_ns < end_ns; }
   };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/solvers/gauss_newton_solver.h"
 
-#include <Eigen/Cholesky>
-
 #include "core/timing/stopwatch.h"
 
 namespace trajlo {
@@ -18,16 +16,11 @@ SolveSummary GaussNewtonSolver::Solve(Window* window) {
     AssembleWindow(*window, poses, registration_, &equations_);
     summary.costs.push_back(equations_.cost.Total());
     summary.evaluate_s += watch.Seconds();
-    const Eigen::VectorXd xi = -equations_.H.ldlt().solve(equations_.g);
+    const Eigen::VectorXd xi = SolveNormalEquations(equations_);
     summary.linear_solve_s += watch.Seconds();
-    if (!xi.allFinite()) {
-      summary.finite = false;
-      return summary;
-    }
     const std::vector<SE3> before = poses;
-    for (std::size_t k = 0; k < poses.size(); ++k) {
-      poses[k] = Plus(before[k], xi.segment<6>(6 * static_cast<Eigen::Index>(k)));
-    }
+    summary.finite = TakeStep(xi, &poses);
+    if (!summary.finite) return summary;
     ++summary.iterations;
     is_small = MeasureStep(before, poses).IsWithin(options_.step_tolerance);
   }

@@ -20,7 +20,7 @@ struct Beginning {
   /// time each.
   bool IsWhole(const InitializationOptions& options) const {
     if (segments.empty()) return false;
-    if (segments.front().IsInstant()) return segments.size() >= 2;
+    if (segments.front().is_instant) return segments.size() >= 2;
     // Times are whole nanoseconds: ten times 0.03 s may be a little less than 0.3 s.
     constexpr double kRounding_s = 1e-6;
     return Seconds(segments.back().end_ns - segments.front().begin_ns) >

@@ -124,7 +124,8 @@ class FirstInterval {
       if (!xi.allFinite()) return Vector6d::Zero();
       if (round >= kDampedFrom) xi *= 0.5;
       tau = se3::Log(se3::Exp(tau) * se3::Exp(xi));
-      if (coarse == 1.0 && xi.head<3>().norm() < 2e-3 && xi.tail<3>().norm() < 2e-4) break;
+      const StepSize step = {xi.head<3>().norm(), xi.tail<3>().norm()};
+      if (coarse == 1.0 && step.IsWithin(kSettledStep)) break;
     }
     return tau;
   }

@@ -8,6 +8,9 @@ namespace {
 
 /// How much z of the first pose counts, against 1 for a direction that never changed.
 constexpr double kFirstVertical = 0.05;
+/// A mean direction in the body frame says where up is if the directions were so much the same (1:
+/// always).
+constexpr double kSteady = 0.5;
 
 }  // namespace
 
@@ -29,7 +32,7 @@ Eigen::Vector3d MeanAttitude::VerticalInWorld() const {
 Eigen::Quaterniond MeanAttitude::Levelled(const Eigen::Quaterniond& q_world_body) const {
   const Eigen::Vector3d vertical_world = VerticalInWorld();
   const Eigen::Vector3d mean_in_body = sum_.transpose() * vertical_world;
-  if (!(mean_in_body.norm() > 0.5 * count_)) return q_world_body;
+  if (!(mean_in_body.norm() > kSteady * count_)) return q_world_body;
   const Eigen::Vector3d present = q_world_body * mean_in_body.normalized();
   return (Eigen::Quaterniond::FromTwoVectors(present, vertical_world) * q_world_body).normalized();
 }

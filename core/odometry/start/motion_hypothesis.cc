@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/odometry/start/coarse_to_fine.h"
 #include "core/odometry/window/association.h"
 #include "core/odometry/window/points_to_world.h"
 #include "factors/plane_distances.h"
@@ -13,8 +14,6 @@
 namespace trajlo {
 namespace {
 
-/// A point this near to its plane agrees.
-constexpr double kAgreement_m = 0.05;
 /// Planes whose normals have at least this cosine with a direction face it.
 constexpr double kFacing = 0.5;
 /// This many (up to twice as many) of the points on planes that do not face a direction hold all

@@ -24,6 +24,8 @@ constexpr double kMaxRangeInMedians = 2.0;
 constexpr std::size_t kMaxSweepPoints = 300;
 /// Blocks of positions are 2^kTopLevel cells wide at first.
 constexpr int kTopLevel = 3;
+/// Of a cube of edge 1: sqrt(3) / 2.
+constexpr double kHalfDiagonal = 0.87;
 /// On each level, blocks are dropped if their bound is below the best one by more than this share
 /// of the points, and those beyond this many.
 constexpr double kHopeless = 0.3;
@@ -197,7 +199,7 @@ class PlaceSearch {
         for (int x = -reach; x <= reach; ++x) {
           const Cell corner = center + width * Cell(x, y, z) - Cell::Constant(width / 2);
           const double distance_m = Cell(x, y, z).cast<double>().norm() * width * cell_m_;
-          if (distance_m > region_.radius_m + 0.87 * width * cell_m_) continue;
+          if (distance_m > region_.radius_m + kHalfDiagonal * width * cell_m_) continue;
           for (std::size_t turned = 0; turned < turned_.size(); ++turned) {
             blocks.push_back({corner, turned, 0});
           }

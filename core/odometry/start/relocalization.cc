@@ -25,8 +25,11 @@ constexpr std::size_t kFewestCells = 100;
 /// At most this many places are refined.
 constexpr std::size_t kPlaces = 24;
 constexpr std::size_t kMaxPoints = 800;
-/// Of a refinement.
+/// Of a refinement. Its kernel is this many times as wide at first: for a place out of a search,
+/// and then for the motion during the sweep.
 constexpr int kRounds = 9;
+constexpr int kWideAtPlace = 8;
+constexpr int kWideInMotion = 4;
 /// Holds what the points do not, as a share of their information.
 constexpr double kDamping = 1e-4;
 /// Places that the refinement brings nearer to each other than this are one.
@@ -64,11 +67,11 @@ class Hypothesis {
   void Place(const SE3& start, const RegistrationOptions& registration) {
     T_begin_ = start;
     Associate();
-    Refine(8, true, registration);
+    Refine(kWideAtPlace, true, registration);
   }
 
   /// Refines the motion during the sweep as well, which was only known roughly.
-  void Move(const RegistrationOptions& registration) { Refine(4, false, registration); }
+  void Move(const RegistrationOptions& registration) { Refine(kWideInMotion, false, registration); }
 
   /// Finds the points that speak for this place.
   void Judge() {

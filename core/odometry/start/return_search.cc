@@ -45,7 +45,7 @@ void ReturnSearch::Add(SegmentCloud segment) {
   if (segment.is_gap || (segments_.empty() && segment.map_points.empty())) return;
   if (!segment.map_points.empty()) searched_s_ += segment.Duration_s();
   since_look_s_ += segment.Duration_s();
-  if (segment.IsInstant()) segments_.clear();
+  if (segment.is_instant) segments_.clear();
   segments_.push_back(std::move(segment));
   const auto longest_ns = Nanoseconds(Longest_s());
   while (segments_.size() > 1 &&
@@ -65,7 +65,7 @@ double ReturnSearch::Longest_s() const {
 
 bool ReturnSearch::IsDue() const {
   if (segments_.empty()) return false;
-  if (segments_.back().IsInstant()) return since_look_s_ >= kPatience * searched_s_;
+  if (segments_.back().is_instant) return since_look_s_ >= kPatience * searched_s_;
   const double sweep_s = Seconds(segments_.back().end_ns - segments_.front().begin_ns);
   const double enough_s = Longest_s() - interval_s_;
   return sweep_s >= enough_s && since_look_s_ >= std::max(enough_s, kPatience * searched_s_);
@@ -105,7 +105,7 @@ ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
   since_look_s_ = 0.0;
   ReturnSweep sweep;
   sweep.cloud = JoinSegments(segments_);
-  if (sweep.cloud.IsInstant()) {
+  if (sweep.cloud.is_instant) {
     sweep.cloud.begin_ns = sweep.cloud.end_ns;
   } else {
     sweep.tau =

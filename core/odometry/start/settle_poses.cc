@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/start/settle_poses.h"
 
-#include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -19,9 +18,6 @@ namespace {
 constexpr int kRounds = 8;
 /// Both halves would go the whole way to meet the other, and miss it by as much.
 constexpr double kDamping = 0.5;
-constexpr StepSize kSmallStep = {2e-3, 2e-4};
-/// A point this near to its plane agrees.
-constexpr double kAgreement_m = 0.05;
 
 /// A window whose segments are two halves, each of which is the other's map.
 class Halves {
@@ -63,14 +59,10 @@ class Halves {
     const std::vector<SE3> before = window_.Poses();
     WindowNormalEquations equations;
     AssembleWindow(window_, before, of_segments, &equations);
-    const Eigen::VectorXd xi = -kDamping * equations.H.ldlt().solve(equations.g);
-    if (!xi.allFinite()) return true;
     std::vector<SE3> after = before;
-    for (std::size_t k = 0; k < after.size(); ++k) {
-      after[k] = Plus(before[k], xi.segment<6>(6 * static_cast<Eigen::Index>(k)));
-    }
+    if (!TakeStep(kDamping * SolveNormalEquations(equations), &after)) return true;
     window_.SetPoses(after);
-    return MeasureStep(before, after).IsWithin(kSmallStep);
+    return MeasureStep(before, after).IsWithin(kSettledStep);
   }
 
   int Agreeing() const {

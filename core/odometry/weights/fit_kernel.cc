@@ -105,8 +105,9 @@ void FitKernel(const RegistrationOptions& options, Window* window) {
   for (std::size_t axis = 0; axis < distances.size(); ++axis) {
     if (distances[axis].size() < kFewest) continue;
     const double spread_m = kSigmaOfMedian * WeightedMedian(&distances[axis]);
-    const double width_m = std::clamp(options.kernel_in_spreads * spread_m, options.sigma_m,
-                                      kWidestKernel * options.kernel_m);
+    const double widest_m = kWidestKernel * options.kernel_m;
+    const double width_m =
+        std::max(options.sigma_m, std::min(options.kernel_in_spreads * spread_m, widest_m));
     double& widening = window->noise.widening[axis];
     const double change = width_m / options.kernel_m - widening;
     if (std::abs(change) <= kSmallChange * widening) continue;

@@ -16,7 +16,7 @@ constexpr double kLearning_s = 0.3;
 constexpr double kLargestScore = 8.0;
 /// The noise of the points is taken to be as small as this share of what is assumed, in squares.
 constexpr double kLeastScatter = 0.2;
-/// A density above this no longer ties anything.
+/// A density above this no longer ties anything; the largest that may be set.
 constexpr double kLargestDensity = 1e4;
 /// A component with less than this gain is left out.
 constexpr double kSmallestGain = 1e-3;
@@ -65,7 +65,9 @@ void MotionPrior::UntieRotation(Window* window) const {
 void MotionPrior::Apply(const Vector6d& density, Window* window) const {
   for (int k = 1; k < window->size(); ++k) {
     Segment& segment = window->At(k);
-    if (options_.kind == MotionPriorKind::kPseudoVelocity) {
+    if (options_.kind == MotionPriorKind::kNone) {
+      segment.motion = std::monostate();
+    } else if (options_.kind == MotionPriorKind::kPseudoVelocity) {
       segment.motion = PseudoVelocity(*window, k, density);
     } else {
       const double before_s = window->At(k - 1).Duration_s(), duration_s = segment.Duration_s();
@@ -86,7 +88,7 @@ Vector6d MotionPrior::Predict(const Window& window, double duration_s) const {
 }
 
 double MotionPrior::Bend_m2(const SegmentCloud& cloud) const {
-  if (options_.kind == MotionPriorKind::kPseudoVelocity || cloud.IsInstant()) return 0.0;
+  if (options_.kind == MotionPriorKind::kPseudoVelocity || cloud.is_instant) return 0.0;
   const double duration_s = cloud.Duration_s();
   return density_[0] * duration_s * duration_s * duration_s / 90.0;
 }
@@ -99,6 +101,11 @@ void MotionPrior::Follow(const Innovation& innovation) {
     const double density = density_[3 * part] * surprise;
     density_.segment<3>(3 * part).setConstant(std::min(density, kLargestDensity));
   }
+}
+
+void MotionPrior::NoteGap() {
+  sum_.setZero();
+  persistence_.NoteGap();
 }
 
 void MotionPrior::LearnPersistence(const Innovation& innovation, const Vector6d& velocity,

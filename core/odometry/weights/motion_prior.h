@@ -13,6 +13,7 @@ namespace trajlo {
 enum class MotionPriorKind {
   kWhiteNoiseAcceleration,  ///< Ties neighbouring segments; see WhiteNoiseAccelerationTerm.
   kPseudoVelocity,          ///< The paper's: ties a segment to the last estimate of the one before.
+  kNone,                    ///< Nothing ties segments, for comparison.
 };
 
 struct MotionPriorOptions {
@@ -25,17 +26,19 @@ struct MotionPriorOptions {
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "kind", kind,
       Names<MotionPriorKind>{{"white_noise_acceleration", MotionPriorKind::kWhiteNoiseAcceleration},
-                             {"pseudo_velocity", MotionPriorKind::kPseudoVelocity}},
-      "White noise on acceleration, which ties neighbouring segments, or the paper's "
-      "pseudo-velocity, which ties a segment to the last estimate of the one before.");
+                             {"pseudo_velocity", MotionPriorKind::kPseudoVelocity},
+                             {"none", MotionPriorKind::kNone}},
+      "White noise on acceleration, which ties neighbouring segments; the paper's "
+      "pseudo-velocity, which ties a segment to the last estimate of the one before; or nothing, "
+      "for comparison (the motion still predicts where a solve begins).");
     d(OptionFor::kUsers, "self_tuning", self_tuning,
       "Lets the prior follow the motion: the densities of its acceleration (expert.motion_prior), "
       "and how long the body keeps a velocity. false keeps the densities, and all velocities.");
-    d(OptionFor::kExperts, "translation_m2_s3", translation_m2_s3, Range<double>{1e-9, 1e9},
+    d(OptionFor::kExperts, "translation_m2_s3", translation_m2_s3, Range<double>{1e-9, 1e4},
       "Spectral density of the acceleration: how freely the body moves. The translations of "
       "neighbouring segments of length dt differ by a variance of 2/3 of it times dt^3. "
       "Self-tuning begins here and never goes below.");
-    d(OptionFor::kExperts, "rotation_rad2_s3", rotation_rad2_s3, Range<double>{1e-9, 1e9},
+    d(OptionFor::kExperts, "rotation_rad2_s3", rotation_rad2_s3, Range<double>{1e-9, 1e4},
       "The same for rotation.");
   }
 };
@@ -111,6 +114,9 @@ class MotionPrior {
   void Learn(const Innovation& innovation, double duration_s);
   /// Takes the velocity of that segment: how long the body keeps it, see VelocityPersistence.
   void LearnPersistence(const Innovation& innovation, const Vector6d& velocity, double duration_s);
+
+  /// Of the motion, a part was not seen: what comes is no continuation of what came before.
+  void NoteGap();
 
   /// Takes an innovation that the densities say cannot be, and the points say is: raises them until
   /// they would have predicted as much, the likeliest value by this innovation alone.

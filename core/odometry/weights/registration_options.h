@@ -35,8 +35,8 @@ struct RegistrationOptions {
     d(OptionFor::kExperts, "kernel_m", kernel_m, Range<double>{1e-3, 100.0},
       "Width of the kernel, if it is not fitted; else at most three times that.");
     d(OptionFor::kExperts, "kernel_in_spreads", kernel_in_spreads, Range<double>{0.0, 100.0},
-      "In each direction the kernel is so many times as wide as the distances of those points are "
-      "spread that hold it, but not narrower than sigma_m; 0 makes it always kernel_m wide.");
+      "Width of the kernel in each direction, as a multiple of the spread of the distances of the "
+      "points that constrain it, but at least sigma_m; 0: always kernel_m.");
   }
 };
 

@@ -30,6 +30,9 @@ class VelocityPersistence {
   /// the share of the predicted variance that its points took away (see Innovation).
   void Learn(const Vector6d& velocity, const Vector6d& gain, double duration_s);
 
+  /// What comes next is later by an unknown time.
+  void NoteGap() { past_.clear(); }
+
   /// rho: the share of the velocity beyond the mean that is left after 0.3 s.
   double share() const;
   /// The share that is left after `duration_s`, by component; 1 for rotation.

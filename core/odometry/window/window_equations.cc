@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/window/window_equations.h"
 
+#include <Eigen/Cholesky>
+
 namespace trajlo {
 
 void WindowNormalEquations::Add(int first, const Eigen::Ref<const Eigen::MatrixXd>& J,
@@ -62,6 +64,18 @@ WindowNormalEquations AssembleWindow(const Window& window) {
   WindowNormalEquations equations;
   AssembleWindow(window, window.Poses(), registration, &equations);
   return equations;
+}
+
+Eigen::VectorXd SolveNormalEquations(const WindowNormalEquations& equations) {
+  return -equations.H.ldlt().solve(equations.g);
+}
+
+bool TakeStep(const Eigen::VectorXd& xi, std::vector<SE3>* poses) {
+  if (!xi.allFinite()) return false;
+  for (std::size_t k = 0; k < poses->size(); ++k) {
+    (*poses)[k] = Plus((*poses)[k], xi.segment<6>(6 * static_cast<Eigen::Index>(k)));
+  }
+  return true;
 }
 
 }  // namespace trajlo

@@ -55,4 +55,11 @@ void AssembleWindow(const Window& window, const std::vector<SE3>& poses,
 /// The same at the window's own poses, with the registration that its segments hold.
 WindowNormalEquations AssembleWindow(const Window& window);
 
+/// xi; not finite where H is singular.
+Eigen::VectorXd SolveNormalEquations(const WindowNormalEquations& equations);
+
+/// Moves the poses by the stacked right perturbations xi. False, and they stay, if that is not
+/// finite.
+bool TakeStep(const Eigen::VectorXd& xi, std::vector<SE3>* poses);
+
 }  // namespace trajlo

@@ -10,6 +10,7 @@
 namespace trajlo {
 namespace {
 
+const MotionPrior kMotionPrior{{}};
 constexpr std::int64_t kStep_ns = 100'000'000;
 constexpr int kJump = 6;     // The first pose that is right again.
 constexpr int kNewest = 10;  // The first pose of the present window.
@@ -45,14 +46,14 @@ void Leave(int first, int last, LeavingPoses* poses) {
 }
 
 TEST(LeavingPoses, AreFinalAtOnceWithoutADoubt) {
-  LeavingPoses poses({});
+  LeavingPoses poses({}, &kMotionPrior);
   poses.Leave(WindowAt(0), Matrix6d::Identity(), true);  // There is nothing before it.
   poses.Leave(WindowAt(1), Matrix6d::Identity(), false);
   EXPECT_EQ(poses.trajectory().poses().size(), 2U);
 }
 
 TEST(LeavingPoses, WaitWhileInDoubtAndAreFinalAsTheyAre) {
-  LeavingPoses poses({});
+  LeavingPoses poses({}, &kMotionPrior);
   Leave(0, 4, &poses);
   // Those that follow wait, too.
   poses.Leave(WindowAt(4), Matrix6d::Identity(), false);
@@ -67,7 +68,7 @@ TEST(LeavingPoses, WaitWhileInDoubtAndAreFinalAsTheyAre) {
 }
 
 TEST(LeavingPoses, WaitForFiveSecondsAtMost) {
-  LeavingPoses poses({});
+  LeavingPoses poses({}, &kMotionPrior);
   Leave(0, 60, &poses);
   // 51 poses are 5 s.
   EXPECT_EQ(poses.trajectory().poses().size(), 60U - 51U);
@@ -76,10 +77,10 @@ TEST(LeavingPoses, WaitForFiveSecondsAtMost) {
 /// Two estimates are offered; that with a point on a plane is taken.
 TEST(LeavingPoses, AreThoseThatBringMorePointsOntoPlanes) {
   for (const int better : {0, 1}) {
-    LeavingPoses poses({});
+    LeavingPoses poses({}, &kMotionPrior);
     Leave(0, kNewest, &poses);
     int estimates = 0;
-    poses.LookBack(WindowAt(kNewest), [&](Window joined) -> std::optional<Window> {
+    poses.SmoothBack(WindowAt(kNewest), [&](Window joined) -> std::optional<Window> {
       joined.segments[2].T_world_end.t.z() = estimates;
       RegistrationPoint on_plane = {};
       on_plane.p_body_m.setZero();
@@ -98,9 +99,9 @@ TEST(LeavingPoses, AreThoseThatBringMorePointsOntoPlanes) {
 }
 
 TEST(LeavingPoses, StayWhereTheyAreIfNoEstimateSucceeds) {
-  LeavingPoses poses({});
+  LeavingPoses poses({}, &kMotionPrior);
   Leave(0, kNewest, &poses);
-  poses.LookBack(WindowAt(kNewest), [](const Window&) { return std::nullopt; });
+  poses.SmoothBack(WindowAt(kNewest), [](const Window&) { return std::nullopt; });
   ASSERT_EQ(poses.trajectory().poses().size(), static_cast<std::size_t>(kNewest));
   for (int k = 0; k < kNewest; ++k) {
     const ControlPose& pose = poses.trajectory().poses()[static_cast<std::size_t>(k)];
@@ -109,9 +110,9 @@ TEST(LeavingPoses, StayWhereTheyAreIfNoEstimateSucceeds) {
 }
 
 TEST(LeavingPoses, AreNotEstimatedAgainIfNoneJumped) {
-  LeavingPoses poses({});
+  LeavingPoses poses({}, &kMotionPrior);
   Leave(0, kJump - 2, &poses);
-  poses.LookBack(WindowAt(kJump - 2), [](const Window&) {
+  poses.SmoothBack(WindowAt(kJump - 2), [](const Window&) {
     ADD_FAILURE() << "nothing to estimate";
     return std::nullopt;
   });
@@ -119,7 +120,7 @@ TEST(LeavingPoses, AreNotEstimatedAgainIfNoneJumped) {
 }
 
 TEST(LeavingPoses, AreFlaggedFromTheFirstLossOn) {
-  LeavingPoses poses({});
+  LeavingPoses poses({}, &kMotionPrior);
   poses.Lose(2 * kStep_ns);
   poses.Lose(1 * kStep_ns);
   for (int k = 0; k < 4; ++k) poses.Leave(WindowAt(k), Matrix6d::Identity(), false);

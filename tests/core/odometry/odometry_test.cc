@@ -123,6 +123,55 @@ TEST(Odometry, WhatCallbacksThrowReachesTheCallerAndFinishSettlesTheRest) {
   }
 }
 
+/// A body that starts in motion has several windows at once. A callback that throws in the first of
+/// them takes nothing from the trajectory.
+TEST(Odometry, ACallbackThatThrowsAtAStartInMotionLosesNothing) {
+  SyntheticWorld world;
+  world.T_world_body = ConstantTwist;
+  const OdometryOptions options = RoomOptions();
+  const RunResult quiet = RunOn(world, options, 8);
+  Odometry odometry(options);
+  int windows = 0, failures = 0;
+  odometry.OnWindow([&](const WindowStatistics&) {
+    if (++windows == 1) throw std::runtime_error("full");
+  });
+  for (int i = 0; i < 8; ++i) {
+    try {
+      odometry.AddScan(world.Sweep(i));
+    } catch (const std::runtime_error&) {
+      ++failures;
+    }
+  }
+  odometry.Finish();
+  EXPECT_EQ(failures, 1);
+  const auto& a = quiet.odometry->trajectory().poses();
+  const auto& b = odometry.trajectory().poses();
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].T_world_body.t, b[i].T_world_body.t);
+}
+
+TEST(Odometry, FinishAfterACallbackThrewInItHandsOnTheRest) {
+  const SyntheticWorld world;
+  Odometry odometry(RoomOptions());
+  bool is_finishing = false;
+  int poses = 0, failures = 0;
+  odometry.OnPose([&](const ControlPose&, const Matrix6d&) {
+    ++poses;
+    if (is_finishing && ++failures <= 2) throw std::runtime_error("full");
+  });
+  for (int i = 0; i < 8; ++i) odometry.AddScan(world.Sweep(i));
+  is_finishing = true;
+  EXPECT_THROW(odometry.Finish(), std::runtime_error);
+  const std::size_t settled = odometry.trajectory().poses().size();
+  const std::int64_t scans = odometry.time_report().scans;
+  EXPECT_THROW(odometry.Finish(), std::runtime_error);
+  odometry.Finish();
+  odometry.Finish();
+  EXPECT_EQ(odometry.trajectory().poses().size(), settled);
+  EXPECT_EQ(poses, static_cast<int>(settled));
+  EXPECT_EQ(odometry.time_report().scans, scans);
+}
+
 TEST(Odometry, WorksOnTheKdTreeMapToo) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;

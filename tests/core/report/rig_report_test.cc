@@ -62,6 +62,11 @@ TEST(RigReport, WarnsOfLidarsThatNothingConfirms) {
   };
   EXPECT_THAT(warnings(RigEvidence::kContradicted), ElementsAre(HasSubstr("out of the map")));
   EXPECT_THAT(warnings(RigEvidence::kNone), ElementsAre(HasSubstr("nothing confirms")));
+  // Where no map began, there was nothing to confirm it.
+  EXPECT_THAT(warnings(RigEvidence::kNotYet), ElementsAre(HasSubstr("0.500 m")));
+  const LidarPlace reference = CorrectedPlace(0, SE3(), 0.0, {}, RigEvidence::kConfirmed);
+  const LidarPlace unseen = CorrectedPlace(1, SE3(), 0.0, {}, RigEvidence::kNotYet);
+  EXPECT_THAT(RigWarnings({reference, unseen}), ElementsAre(HasSubstr("from enough places")));
 }
 
 }  // namespace

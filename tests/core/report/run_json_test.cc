@@ -94,8 +94,7 @@ TEST(RunSummary, SaysWhatIsMissingOnlyWhereItIsMoreThanALittle) {
   EXPECT_EQ(s.Shortcomings(), "the times of 6 of 100 scans are not those of their stamps");
   s.times.moved = 0;
   s.times.odd_point_times = 6;
-  EXPECT_EQ(s.Shortcomings(),
-            "of 100 scans some have one time for all points, the others one for each");
+  EXPECT_EQ(s.Shortcomings(), "of 100 scans some have a single time for all points, or none");
   s.times.odd_point_times = 5;
   s.times.exchanged = 6;
   EXPECT_EQ(s.Shortcomings(), "6 of 100 scans may be out of order, by what they show");
@@ -175,7 +174,7 @@ TEST(RunSummary, SaysThatHardlyAPoseCanBeReliedOn) {
   poses[95].flags = poses[96].flags = kFlagJump;
   s.flags = PoseFlags(poses, std::nullopt);
   EXPECT_EQ(s.Shortcomings(),
-            "9.60 of 10.00 s have a flag (flags.csv): hardly a pose can be relied on");
+            "9.60 of 10.00 s have a flag (flags.csv): almost no pose can be trusted");
   // What nothing confirms is said once.
   for (ControlPose& pose : poses) pose.flags = kFlagJump | kFlagDegenerate;
   s.flags = PoseFlags(poses, std::nullopt);
@@ -209,7 +208,8 @@ TEST(RunSummary, SaysThatPosesWereInDoubtForAQuarterOfTheTime) {
   poses[2].flags = poses[6].flags = kFlagJump;
   s.flags = PoseFlags(poses, std::nullopt);
   EXPECT_EQ(s.Shortcomings(),
-            "for 2.60 of 10.00 s poses jump as no body does, or are in doubt since (flag jump)");
+            "for 2.60 of 10.00 s poses jump further than a body can move, or have been in doubt "
+            "since then (flag jump)");
 }
 
 TEST(RunSummary, SaysThatNothingWasMeasuredForLong) {

@@ -170,6 +170,27 @@ TEST(ScanSamplerTest, WhatTheEstimatorDoesNotUseIsNotShown) {
   EXPECT_THAT(sampler.Deskew(Drive(0.2), {}), SizeIs(kRings - 4));
 }
 
+/// Where nobody knows how the body moved, nothing is drawn.
+TEST(ScanSamplerTest, WhatWasSeenInAPauseOfTheTrajectoryIsNotShown) {
+  SegmenterOptions segmenter;
+  ScanSampler sampler(segmenter);
+  for (int i = 0; i < 30; ++i) sampler.Note(Sweep(i, 4));
+  Trajectory with_pause;
+  for (const int i : {0, 5, 20, 30}) {
+    const std::int64_t t_ns = kStart_ns + i * kSweep_ns;
+    with_pause.Append({t_ns, PoseAt(t_ns)});
+  }
+  const auto counts = PointsPerMoment(sampler.Deskew(with_pause, {}));
+  ASSERT_FALSE(counts.empty());
+  EXPECT_EQ(counts.begin()->first, kStart_ns);
+  for (const auto& [moment_ns, count] : counts) {
+    const std::int64_t i = (moment_ns - kStart_ns) / kSweep_ns;
+    EXPECT_TRUE(i <= 5 || i >= 20) << i;
+  }
+  EXPECT_EQ(counts.count(kStart_ns + 4 * kSweep_ns), 1U);
+  EXPECT_EQ(counts.count(kStart_ns + 21 * kSweep_ns), 1U);
+}
+
 std::vector<float> Values(const PointTable& table, const std::string& name) {
   std::vector<float> values(table.count);
   const Column* column = table.Find(name);

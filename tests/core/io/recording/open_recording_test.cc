@@ -125,7 +125,9 @@ TEST(OpenRecording, StampsThatMayBeInMillisecondsAreTold) {
   EXPECT_THROW(OpenRecording({temp / "a"}, options), InputError);
   options.use_point_times.values = {false};
   EXPECT_THAT(OpenRecording({temp / "a"}, options)->report().warnings,
-              ElementsAre(HasSubstr("timestamps.txt: stamps are 100 s apart: they may be in ms")));
+              ElementsAre(HasSubstr("timestamps.txt: stamps are 100 s apart: they may be in ms"),
+                          HasSubstr("points have times (field 'time'), which input.point_time=none "
+                                    "ignores")));
 }
 
 TEST(OpenRecording, APeriodContradictsStamps) {

@@ -128,10 +128,10 @@ TEST(LossWatch, AWindowIsRestlessWhileStepsAreLarge) {
 /// What the points of a long segment saw on the way lies on no straight motion: its steps stay
 /// larger, and mean less. Those of a motion-corrected scan saw it at once.
 TEST(LossWatch, LongSegmentsSettleWithLargerSteps) {
-  const auto is_restless = [](double segment_s, float alpha) {
+  const auto is_restless = [](double segment_s, bool is_instant) {
     SegmentCloud cloud;
     cloud.end_ns = static_cast<std::int64_t>(1e9 * segment_s);
-    cloud.map_points = {{Eigen::Vector3f::Zero(), alpha}};
+    cloud.is_instant = is_instant;
     WindowStatistics window;
     window.restless = RestlessStep(cloud);
     SolveSummary solve;
@@ -142,10 +142,10 @@ TEST(LossWatch, LongSegmentsSettleWithLargerSteps) {
     }
     return window.IsRestless();
   };
-  EXPECT_TRUE(is_restless(0.01, 0.5F));
-  EXPECT_TRUE(is_restless(0.03, 0.5F));
-  EXPECT_FALSE(is_restless(0.1, 0.5F));
-  EXPECT_TRUE(is_restless(0.1, 1.0F));
+  EXPECT_TRUE(is_restless(0.01, false));
+  EXPECT_TRUE(is_restless(0.03, false));
+  EXPECT_FALSE(is_restless(0.1, false));
+  EXPECT_TRUE(is_restless(0.1, true));
 }
 
 }  // namespace

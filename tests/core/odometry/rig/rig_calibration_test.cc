@@ -211,6 +211,7 @@ TEST(RigCalibration, ScansWithoutPointTimesTellNothingOfClocks) {
   for (int i = 0; i < 50; ++i) {
     SegmentCloud cloud = rig.See(100, Step(i));
     for (SegmentPoint& point : cloud.map_points) point.alpha = 1.0F;
+    cloud.is_instant = true;
     calibration.Apply(&cloud);
     std::vector<SegmentCloud> first = {cloud};
     if (i == 0) calibration.Begin(&first);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/odometry/window/hindsight.h"
+#include "core/odometry/window/interval_smoother.h"
 
 #include <algorithm>
 #include <utility>
@@ -51,9 +51,11 @@ void ForgetPlanes(Segment* segment) {
 
 }  // namespace
 
-double Hindsight::Duration_s() const { return Seconds(stretch_.EndNs() - stretch_.begin_ns); }
+double IntervalSmoother::Duration_s() const {
+  return Seconds(stretch_.EndNs() - stretch_.begin_ns);
+}
 
-void Hindsight::AddPose(const Window& window, unsigned flags, const Matrix6d& covariance) {
+void IntervalSmoother::AddPose(const Window& window, unsigned flags, const Matrix6d& covariance) {
   if (is_empty()) {
     stretch_ = Window();
     stretch_.begin_ns = window.begin_ns;
@@ -66,21 +68,26 @@ void Hindsight::AddPose(const Window& window, unsigned flags, const Matrix6d& co
   leaving_.push_back({{window.begin_ns, SE3(), flags}, covariance});
 }
 
-void Hindsight::Meet(const Window& newest) {
-  SE3& T_world_end = stretch_.segments.back().T_world_end;
-  if (!MeasureStep(T_world_end, newest.T_world_begin).IsWithin(kJump)) {
+void IntervalSmoother::Meet(const Window& newest) {
+  Segment& last = stretch_.segments.back();
+  const LinearizedRegistration as_left = {stretch_.Pose(stretch_.size() - 1), last.T_world_end,
+                                          last.registration};
+  if (MeasureStep(last.T_world_end, newest.T_world_begin).IsWithin(kJump)) {
+    last.registration = as_left.At(as_left.T_world_begin, newest.T_world_begin);
+  } else {
     last_jump_ = stretch_.size();
+    last.registration = {};  // What its points said, they said of another place.
   }
-  T_world_end = newest.T_world_begin;
+  last.T_world_end = newest.T_world_begin;
 }
 
-void Hindsight::AddSegment(Segment segment) {
+void IntervalSmoother::AddSegment(Segment segment) {
   segment.cloud.map_points = {};
   ForgetPlanes(&segment);
   stretch_.segments.push_back(std::move(segment));
 }
 
-void Hindsight::AddGap(std::int64_t end_ns) {
+void IntervalSmoother::AddGap(std::int64_t end_ns) {
   Segment gap;
   gap.cloud.begin_ns = stretch_.EndNs();
   gap.cloud.end_ns = end_ns;
@@ -88,7 +95,7 @@ void Hindsight::AddGap(std::int64_t end_ns) {
   stretch_.segments.push_back(std::move(gap));
 }
 
-Window Hindsight::Join(const Window& newest) const {
+Window IntervalSmoother::Join(const Window& newest) const {
   Window joined = stretch_;
   for (const Segment& segment : newest.segments) {
     joined.segments.push_back(segment);
@@ -99,7 +106,7 @@ Window Hindsight::Join(const Window& newest) const {
   return joined;
 }
 
-Window Hindsight::JoinInterpolated(const Window& newest) const {
+Window IntervalSmoother::JoinInterpolated(const Window& newest) const {
   Window joined = Join(newest);
   const int last = std::max(last_jump_, 1);
   const MovingPose begin = {joined.T_world_begin, joined.Velocity(0)};
@@ -113,21 +120,24 @@ Window Hindsight::JoinInterpolated(const Window& newest) const {
   return joined;
 }
 
-void Hindsight::SetPoses(const Window& joined) {
+void IntervalSmoother::SetPoses(const Window& joined) {
   stretch_.T_world_begin = joined.T_world_begin;
   for (int k = 0; k < stretch_.size(); ++k) stretch_.At(k).T_world_end = joined.At(k).T_world_end;
 }
 
-LeavingPose Hindsight::TakeOldest(const MarginalizationOptions& options) {
+LeavingPose IntervalSmoother::TakeOldest(const MarginalizationOptions& options,
+                                         const MotionPrior& motion_prior) {
   LeavingPose oldest = leaving_.front();
   oldest.pose.T_world_body = stretch_.T_world_begin;
   leaving_.erase(leaving_.begin());
+  // As the oldest of its window, each segment lost what tied it to the one before.
+  motion_prior.Apply(&stretch_);
   Marginalize(options, &stretch_);
   last_jump_ = std::max(last_jump_ - 1, 0);
   return oldest;
 }
 
-std::vector<LeavingPose> Hindsight::TakeAll() {
+std::vector<LeavingPose> IntervalSmoother::TakeAll() {
   std::vector<LeavingPose> all = std::move(leaving_);
   leaving_.clear();
   for (std::size_t k = 0; k < all.size(); ++k) {

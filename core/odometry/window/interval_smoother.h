@@ -4,21 +4,22 @@
 #include <vector>
 
 #include "core/odometry/trajectory/final_poses.h"
+#include "core/odometry/weights/motion_prior.h"
 #include "core/odometry/window/marginalize.h"
 #include "core/odometry/window/window.h"
 
 namespace trajlo {
 
-/// What has left the window while it was in doubt where the body is. Then the motion prior carries
-/// the poses, or wrong planes do, and they leave before the points hold the body again. When they
-/// do, both ends of the stretch are known, and it can be estimated once more: a body that nothing
-/// held for T is off by q T³ / 3 in the mean square at the end, if only the begin is known, but by
-/// at most q T³ / 192 anywhere, if both are.
+/// A fixed-interval smoother over what has left the window while it was in doubt where the body is.
+/// Then the motion prior carries the poses, or wrong planes do, and they leave before the points
+/// hold the body again. When they do, both ends of the stretch are known, and it can be estimated
+/// once more: a body that nothing held for T is off by q T³ / 3 in the mean square at the end, if
+/// only the begin is known, but by at most q T³ / 192 anywhere, if both are.
 ///
 /// It is a window of its own, from the first pose that left in doubt to the first one of the
 /// present window. Its prior is that of the window which the first pose left. Each pose stands
 /// where its last window had it: the poses after a jump are right, those before it wrong.
-class Hindsight {
+class IntervalSmoother {
  public:
   bool is_empty() const { return leaving_.empty(); }
   std::int64_t EndNs() const { return stretch_.EndNs(); }
@@ -47,7 +48,7 @@ class Hindsight {
   void SetPoses(const Window& joined);
 
   /// The oldest pose leaves; what it says about the others becomes part of the prior.
-  LeavingPose TakeOldest(const MarginalizationOptions& options);
+  LeavingPose TakeOldest(const MarginalizationOptions& options, const MotionPrior& motion_prior);
   std::vector<LeavingPose> TakeAll();
 
  private:
