@@ -97,6 +97,7 @@ std::vector<SE3> Tracker::Push(SegmentCloud* cloud) {
   PushSegment(std::move(*cloud), velocity, options_.window.deskewing, &window_);
   motion_prior_.Apply(&window_);
   Segment& newest = window_.segments.back();
+  newest.noise_factor = motion_prior_.noise_factor();
   newest.bend_m2 = motion_prior_.Bend_m2(newest.cloud);
   if (window_.size() == 1) window_.noise = MakeRegistrationNoise(options_.registration);
   return window_.Poses();

@@ -16,6 +16,13 @@ constexpr double kLearning_s = 0.3;
 constexpr double kLargestScore = 8.0;
 /// The noise of the points is taken to be as small as this share of what is assumed, in squares.
 constexpr double kLeastScatter = 0.2;
+/// So long lasts what is noise and no jerk.
+constexpr double kLasting_s = 2.0;
+/// T_k.
+constexpr double kNoiseLearning_s = 1.0;
+/// A larger z² counts as this one.
+constexpr double kLargestScatter = 4.0;
+constexpr double kLargestNoiseFactor = 50.0;
 /// A density above this no longer ties anything; the largest that may be set.
 constexpr double kLargestDensity = 1e4;
 /// A component with less than this gain is left out.
@@ -113,6 +120,13 @@ void MotionPrior::LearnPersistence(const Innovation& innovation, const Vector6d&
   if (options_.self_tuning) persistence_.Learn(velocity, innovation.gain, duration_s);
 }
 
+void MotionPrior::LearnNoise(double scatter, double surprise, double duration_s) {
+  const double z2 = std::min(scatter, kLargestScatter);
+  lasting_scatter_ += (1.0 - std::exp(-duration_s / kLasting_s)) * (z2 - lasting_scatter_);
+  log_noise_factor_ += duration_s / kNoiseLearning_s * (z2 - std::max(1.0, surprise));
+  log_noise_factor_ = std::clamp(log_noise_factor_, 0.0, std::log(kLargestNoiseFactor));
+}
+
 void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
   const double decay = std::exp(-duration_s / kSumMemory_s);
   const Vector6d z = Normalized(innovation);
@@ -126,7 +140,11 @@ void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
     surprise_[part] += share * (surprise - surprise_[part]);
     scatter_[part] += share * (*scatter - scatter_[part]);
     if (!options_.self_tuning) continue;
-    const double noise = part == 0 ? std::clamp(scatter_[part], kLeastScatter, 1.0) : 1.0;
+    double noise = 1.0;
+    if (part == 0) {
+      LearnNoise(*scatter, surprise, duration_s);
+      noise = std::clamp(scatter_[part], kLeastScatter, std::max(1.0, lasting_scatter_));
+    }
     const double score = std::min(surprise / noise - 1.0, kLargestScore);
     const double density = density_[3 * part] * std::exp(score * duration_s / kLearning_s);
     density_.segment<3>(3 * part).setConstant(

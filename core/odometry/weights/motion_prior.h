@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/odometry/weights/innovation.h"
 #include "core/odometry/weights/velocity_persistence.h"
@@ -58,8 +59,15 @@ struct MotionPriorOptions {
 /// a step up the likelihood of s, with E u = v where it rests. v = 1 if the noise of the points is
 /// as large as assumed. It is mostly smaller: sigma_m is on the safe side. Then z² has a mean below
 /// 1, and a sum of z that are independent is smaller in the same measure: v is the mean of z² over
-/// T_l, between 0.2 and 1. (Not beyond: a jerk makes z² large, too, and would hide itself. And not
-/// for rotation, where it brought nothing, and made runs at 35 rad/s too uncertain.)
+/// T_l, between 0.2 and 1, or the mean of min(z², 4) over the last two seconds if that is more. (A
+/// jerk makes z² large, too, but not for long. And not for rotation, where it brought nothing, and
+/// made runs at 35 rad/s too uncertain.)
+///
+/// On rough ground, or where each segment sees one side only, the noise is larger than assumed: all
+/// points of a segment share errors of their planes. Then z² is large and the sums are not, since
+/// such errors change their sign. So the variance of the points gets a factor k >= 1,
+///
+///   log k ← log k + (Δt / T_k) (min(z², 4) - max(1, u)).
 ///
 /// At rest, z is the noise of planes that hardly changes the estimate: u < 1, and q falls to its
 /// floor. In constant acceleration z keeps its sign, s adds up, and q rises until the lag is within
@@ -88,6 +96,9 @@ class MotionPrior {
   /// q Δt³ / 90 on average. None for a scan at one instant, nor for a pseudo-velocity, which takes
   /// the twist for constant.
   double Bend_m2(const SegmentCloud& cloud) const;
+
+  /// k: by how much the variance of the points is larger than assumed.
+  double noise_factor() const { return std::exp(log_noise_factor_); }
 
   /// The factor between the squared errors of the poses and the covariances of their windows,
   /// averaged over T_l; 1 before there is evidence.
@@ -124,6 +135,7 @@ class MotionPrior {
 
  private:
   void Apply(const Vector6d& density, Window* window) const;
+  void LearnNoise(double scatter, double surprise, double duration_s);
 
   MotionPriorOptions options_;
   Vector6d density_;
@@ -132,6 +144,8 @@ class MotionPrior {
   /// u and z² of translation and of rotation, averaged over T_l.
   Eigen::Vector2d surprise_ = Eigen::Vector2d::Ones();
   Eigen::Vector2d scatter_ = Eigen::Vector2d::Ones();
+  double lasting_scatter_ = 1.0;  ///< min(z², 4) of translation, averaged over two seconds.
+  double log_noise_factor_ = 0.0;
 };
 
 }  // namespace trajlo

@@ -28,7 +28,8 @@ struct Segment {
   SE3 T_world_end;                        ///< The control pose at cloud.end_ns.
   SegmentAssociation association;         ///< Finds the planes of cloud.registration_points.
   std::vector<RegistrationPoint> points;  ///< Those that have one.
-  double bend_m2 = 0.0;  ///< See MotionPrior::Bend_m2(): its guess when the segment came.
+  double noise_factor = 1.0;  ///< See MotionPrior::noise_factor(): its guess when the segment came.
+  double bend_m2 = 0.0;       ///< See MotionPrior::Bend_m2(): its guess when the segment came.
   MotionTerm motion;
   /// The registration around the present poses: to first order in the last step.
   RegistrationNormalEquations registration;
@@ -83,10 +84,11 @@ struct Window {
     for (Segment& segment : segments) segment.linearization.reset();
   }
   /// Of each point of a segment. All N of them share its bend: together they tell as much as
-  /// N / (1 + N bend_m2 / sigma²) points without one.
+  /// N / (k + N bend_m2 / sigma²) points without one, whose variance is not k times as large.
   RegistrationNoise NoiseOf(const Segment& segment) const {
     const auto points = static_cast<double>(segment.cloud.registration_points.size());
-    return noise.SharedBy(1.0 + points * segment.bend_m2 / (noise.sigma_m * noise.sigma_m));
+    return noise.SharedBy(segment.noise_factor +
+                          points * segment.bend_m2 / (noise.sigma_m * noise.sigma_m));
   }
   /// The mean twist over segment k, [rho; theta] per second, in the body frame at its start.
   Vector6d Velocity(int k) const { return Minus(Pose(k + 1), Pose(k)) / At(k).Duration_s(); }

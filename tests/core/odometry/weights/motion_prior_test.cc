@@ -214,6 +214,38 @@ TEST(MotionPrior, IsNotStiffWherePointsHaveLessNoiseThanAssumed) {
   EXPECT_LT(std::sqrt(error[1] / error[0]), 1.06);
 }
 
+/// Errors that change their sign are noise, and no motion: the points weigh less, and the prior
+/// stays as stiff as it was.
+TEST(MotionPrior, TakesNoiseThatIsLargerThanAssumedForNoise) {
+  Line line({});
+  line.true_sigma_m = 3.0 * line.sigma_m;
+  const double assumed_m = line.sigma_m;
+  for (int i = 0; i < 1000; ++i) {
+    line.sigma_m = assumed_m * std::sqrt(line.prior.noise_factor());
+    line.Step(0.0, 0.0);
+  }
+  // The prior takes a part of it for motion.
+  EXPECT_NEAR(std::sqrt(line.prior.noise_factor()), 2.5, 0.7);
+  EXPECT_LT(line.prior.density()[0], 3.0 * MotionPriorOptions().translation_m2_s3);
+  // It forgets, too.
+  line.true_sigma_m = assumed_m;
+  for (int i = 0; i < 300; ++i) {
+    line.sigma_m = assumed_m * std::sqrt(line.prior.noise_factor());
+    line.Step(0.0, 0.0);
+  }
+  EXPECT_LT(line.prior.noise_factor(), 1.5);
+}
+
+/// An acceleration is no noise.
+TEST(MotionPrior, DoesNotTakeAMotionForNoise) {
+  Line line({});
+  for (int i = 0; i < 300; ++i) {
+    const double t = 0.03 * i;
+    line.Step(1.5 * t * t, 3.0 * t);
+    EXPECT_LT(line.prior.noise_factor(), 2.0) << t;
+  }
+}
+
 TEST(MotionPrior, LearnsNothingWhereThePointsTellNothing) {
   MotionPrior prior({});
   Innovation innovation;
