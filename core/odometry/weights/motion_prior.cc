@@ -16,7 +16,7 @@ constexpr double kLearning_s = 0.3;
 constexpr double kLargestScore = 8.0;
 /// The noise of the points is taken to be as small as this share of what is assumed, in squares.
 constexpr double kLeastScatter = 0.2;
-/// So long lasts what is noise and no jerk.
+/// Noise lasts longer than a jerk: the time over which the lasting scatter is averaged.
 constexpr double kLasting_s = 2.0;
 /// T_k.
 constexpr double kNoiseLearning_s = 1.0;
