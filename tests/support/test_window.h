@@ -10,9 +10,9 @@
 
 namespace trajlo::testing {
 
-/// A window of four segments of 0.03 s in a room of random planes, started a little off the truth:
+/// A window of segments of 0.03 s in a room of random planes, started a little off the truth:
 /// a known velocity for the first segment, white-noise acceleration for the others.
-inline Window MakeTestWindow(unsigned seed, int points_per_segment = 300) {
+inline Window MakeTestWindow(unsigned seed, int points_per_segment = 300, int segments = 4) {
   constexpr double kInterval_s = 0.03;
   Random random(seed);
   std::vector<SE3> truth = {random.Pose()};
@@ -21,7 +21,7 @@ inline Window MakeTestWindow(unsigned seed, int points_per_segment = 300) {
   window.prior = MakeAnchor(Plus(truth[0], random.Tangent(0.001, 0.002)), 0.01, 0.01);
   window.noise = {0.1, {KernelKind::kCauchy, 2.0}, {1.0, 1.5, 0.7}};
   window.T_world_begin = Plus(truth[0], random.Tangent(0.01, 0.03));
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < segments; ++k) {
     truth.push_back(Plus(truth.back(), velocity + random.Tangent(0.002, 0.003)));
     Segment segment;
     segment.cloud.begin_ns = 30'000'000LL * k;

@@ -2,12 +2,15 @@
 #include "core/odometry/solvers/ceres_steps.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace trajlo {
 namespace {
 
 /// From no damping to a step that is short enough, Levenberg-Marquardt needs about this many tries.
 constexpr int kMostRejectedSteps = 12;
+/// The Hessian of a longer window is mostly zeros: only neighbours share a term.
+constexpr std::size_t kLongWindow = 16;
 
 }  // namespace
 
@@ -49,6 +52,10 @@ SolveSummary SolveByCeres(const SolverOptions& options, ceres::Solver::Options c
   std::copy(start.begin(), start.end(), poses->begin());
   StopAfterSteps stop(options, poses);
   ceres_options.callbacks = {&stop};
+  if (poses->size() > kLongWindow &&
+      ceres_options.linear_solver_type == ceres::DENSE_NORMAL_CHOLESKY) {
+    ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  }
   ceres::Solver::Summary ceres_summary;
   ceres::Solve(ceres_options, problem, &ceres_summary);
 

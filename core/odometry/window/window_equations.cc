@@ -2,8 +2,17 @@
 #include "core/odometry/window/window_equations.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <limits>
 
 namespace trajlo {
+namespace {
+
+/// Of more unknowns H is mostly zeros: only neighbours share a term.
+constexpr Eigen::Index kLongWindow = 96;
+
+}  // namespace
 
 void WindowNormalEquations::Add(int first, const Eigen::Ref<const Eigen::MatrixXd>& J,
                                 const Eigen::Ref<const Eigen::VectorXd>& r) {
@@ -67,7 +76,13 @@ WindowNormalEquations AssembleWindow(const Window& window) {
 }
 
 Eigen::VectorXd SolveNormalEquations(const WindowNormalEquations& equations) {
-  return -equations.H.ldlt().solve(equations.g);
+  const Eigen::MatrixXd& H = equations.H;
+  if (H.cols() <= kLongWindow) return -H.ldlt().solve(equations.g);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(H.sparseView());
+  if (factor.info() != Eigen::Success) {
+    return Eigen::VectorXd::Constant(H.cols(), std::numeric_limits<double>::quiet_NaN());
+  }
+  return -factor.solve(equations.g);
 }
 
 bool TakeStep(const Eigen::VectorXd& xi, std::vector<SE3>* poses) {

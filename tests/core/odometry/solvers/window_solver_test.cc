@@ -53,6 +53,13 @@ TEST(WindowSolver, CeresAndGaussNewtonEndAtTheSameOptimum) {
   }
 }
 
+/// Both use a sparse factorisation there.
+TEST(WindowSolver, CeresAndGaussNewtonAgreeInALongWindow) {
+  const Window window = MakeTestWindow(1, 60, 50);
+  const auto expected = Solve(Converging(SolverKind::kGaussNewton), window);
+  EXPECT_LT(LargestDifference(Solve(Converging(SolverKind::kCeres), window), expected), 1e-7);
+}
+
 TEST(WindowSolver, OneCeresIterationIsOneGaussNewtonStep) {
   for (const Window& window : {MakeTestWindow(12), WindowInTheMidst(12)}) {
     SolverOptions options = Converging(SolverKind::kGaussNewton);
