@@ -4,12 +4,14 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <sstream>
 
 #include "apps/failure_text.h"
 #include "apps/print_warnings.h"
 #include "apps/run/run.h"
 #include "core/io/atomic_file.h"
+#include "core/io/disk_reserve.h"
 #include "core/io/errors.h"
 #include "core/io/recording/open_recording.h"
 #include "core/io/stamp_text.h"
@@ -22,6 +24,9 @@ namespace trajlo {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Kept for the last run.json, which is a few kB.
+constexpr std::size_t kReserve_bytes = 64 << 10;
 
 std::vector<std::string> Lines(const std::string& text) {
   std::vector<std::string> lines;
@@ -130,6 +135,7 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
   const ResultFolder folder(request.output);
   RunSummary summary = StartSummary(request);
   bool prepared = false;
+  std::optional<DiskReserve> reserve;
   try {
     folder.Check(request.overwrite);
     const std::unique_ptr<ScanSource> recording =
@@ -140,6 +146,7 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
     std::fflush(stdout);
     folder.Prepare();
     prepared = true;
+    reserve.emplace(request.output, kReserve_bytes);
     Execute(request, folder, recording.get(), stop, &summary);
   } catch (const OutputError& error) {
     End(ExitCode::kOutputNotWritable, "output_not_writable", error.what(), &summary);
@@ -156,6 +163,7 @@ ExitCode RunJob(const RunRequest& request, const std::atomic<bool>& stop) {
     return static_cast<ExitCode>(*summary.exit_code);
   }
   try {
+    reserve.reset();  // On a disk that is full by now, run.json would go on saying "running".
     WriteRunJson(folder.summary(), summary);
   } catch (const OutputError& error) {
     std::fprintf(stderr, "trajlo_run: %s\n", error.what());
