@@ -28,7 +28,8 @@ ScanFolder::ScanFolder(const std::filesystem::path& path, const ScanFolderOption
   stamps_ = FindStamps(options_.stamps_file, &listing_);
   recorded_ns_ = FindRecordTimes(listing_);
   report_.scans_listed = listing_.files.size();
-  report_.warnings = stamps_.warnings;
+  if (!options_.remark.empty()) report_.warnings.push_back(path.string() + ": " + options_.remark);
+  report_.warnings.insert(report_.warnings.end(), stamps_.warnings.begin(), stamps_.warnings.end());
   const std::string doubt = DoubtOfStampUnit(TypicalPeriod(stamps_.t_ns));
   if (!doubt.empty()) report_.warnings.push_back(stamps_.source + ": " + doubt);
   Probe();

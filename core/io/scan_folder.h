@@ -25,6 +25,8 @@ struct ScanFolderOptions {
   std::int64_t clock_offset_ns = 0;
   /// Time between scans when nothing else gives stamps.
   double scan_period_s = 0.1;
+  /// Goes into the warnings, if it is not empty.
+  std::string remark;
   /// Decode the next scan in the background while the present one is worked on.
   bool read_ahead = true;
 };

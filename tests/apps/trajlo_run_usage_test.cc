@@ -96,6 +96,11 @@ TEST_F(TrajloRunTest, OptionsThatARecordingHasNoUseForAreRefused) {
   const Outcome model = Run({"--set=input.velodyne_model=VLP-16"});
   EXPECT_EQ(model.exit_code, 1);
   EXPECT_THAT(model.err, HasSubstr("input.velodyne_model is for captures of packets"));
+  // It may be of a configuration for the bag that the folder comes from.
+  const Outcome topics = Run({"--set=input.topics=/points"});
+  EXPECT_EQ(topics.exit_code, 0);
+  EXPECT_THAT(topics.err, HasSubstr("input.topics (/points) is not used"));
+  fs::remove_all(output());
   WriteFile(temp_ / "in.bag", "#ROSBAG V2.0");
   const Outcome period = Call(
       {"--input=" + input() + ".bag", "--output=" + output(), "--set=input.scan_period_s=0.2"});

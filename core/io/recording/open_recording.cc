@@ -21,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::unique_ptr<ScanSource> OpenFolder(const std::string& input, const RecordingOptions& options,
-                                       std::size_t lidar_id, bool read_ahead) {
+                                       std::size_t lidar_id, bool read_ahead,
+                                       const std::string& remark) {
   ScanFolderOptions own;
   own.read_ahead = read_ahead;
   own.lidar_id = static_cast<int>(lidar_id);
@@ -29,11 +30,27 @@ std::unique_ptr<ScanSource> OpenFolder(const std::string& input, const Recording
   own.stamps_file = options.stamps_file;
   own.clock_offset_ns = Nanoseconds(options.clock_offset_s.Of(lidar_id));
   own.scan_period_s = options.scan_period_s;
+  own.remark = remark;
   return std::make_unique<ScanFolder>(input, own);
 }
 
 std::string FolderName(const fs::path& path) {
   return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+bool IsNameOf(const std::string& topic, const std::string& input) {
+  return topic == input || topic == FolderName(input);
+}
+
+/// What is to be said of topics that go with `inputs`, of which none has any. A configuration for
+/// the bag that folders come from has them, so this is no error.
+std::string RemarkAbout(const std::vector<std::string>& topics,
+                        const std::vector<std::string>& inputs) {
+  if (topics.empty() || std::any_of(inputs.begin(), inputs.end(), HoldsClouds)) return "";
+  if (IsNameOf(topics.front(), inputs.front())) return "";
+  std::string list;
+  for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
+  return "input.topics (" + list + ") is not used, as folders of scans have no topics";
 }
 
 }  // namespace
@@ -63,7 +80,7 @@ std::vector<std::string> ChosenInputs(const std::vector<std::string>& inputs,
   std::vector<std::string> chosen;
   for (const std::string& topic : options.topics) {
     const auto folder = std::find_if(inputs.begin(), inputs.end(), [&](const std::string& input) {
-      return topic == input || topic == FolderName(input);
+      return IsNameOf(topic, input);
     });
     if (folder != inputs.end()) chosen.push_back(*folder);
   }
@@ -98,9 +115,11 @@ std::unique_ptr<ScanSource> OpenRecording(const std::vector<std::string>& inputs
   const bool read_ahead = threads != 1;
   std::vector<std::unique_ptr<ScanSource>> sources;
   std::size_t lidar_id = 0;
-  for (const std::string& input : ChosenInputs(inputs, options)) {
+  const std::vector<std::string> chosen = ChosenInputs(inputs, options);
+  for (const std::string& input : chosen) {
     if (!HoldsClouds(input)) {
-      sources.push_back(OpenFolder(input, options, lidar_id++, read_ahead));
+      const std::string remark = lidar_id == 0 ? RemarkAbout(options.topics, chosen) : "";
+      sources.push_back(OpenFolder(input, options, lidar_id++, read_ahead, remark));
       continue;
     }
     auto recording = std::make_unique<CloudRecording>(

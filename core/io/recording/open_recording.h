@@ -16,7 +16,8 @@ std::vector<std::string> InputPaths(const std::string& input);
 
 /// The inputs that `options.topics` means where none of them has topics: the folders whose own
 /// names these are, in that order. As many topics as folders that name none of them are those of a
-/// bag whose LiDARs the folders hold. Throws InputError if neither is so.
+/// bag whose LiDARs the folders hold; OpenRecording() warns then. Throws InputError if neither is
+/// so.
 std::vector<std::string> ChosenInputs(const std::vector<std::string>& inputs,
                                       const RecordingOptions& options);
 

@@ -15,6 +15,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 using trajlo::testing::RoomRecording;
 using trajlo::testing::TempFolder;
@@ -115,6 +116,25 @@ TEST(ChosenInputs, TopicsAreNamesOfFoldersWhereThereIsNoBag) {
   }
   options.topics = {"lidar1", "lidar2"};
   EXPECT_THROW(ChosenInputs({a, b}, options), InputError);
+}
+
+TEST(OpenRecording, TellsThatFoldersHaveNoUseForTopics) {
+  const TempFolder temp;
+  SmallRoom(2).Write(temp / "in/lidar0");
+  SmallRoom(2).Write(temp / "in/lidar1");
+  const std::string a = temp / "in/lidar0", b = temp / "in/lidar1";
+  const auto warnings = [&](const std::vector<std::string>& inputs,
+                            const std::vector<std::string>& topics) {
+    RecordingOptions options;
+    options.topics = topics;
+    return OpenRecording(inputs, options)->report().warnings;
+  };
+  EXPECT_THAT(warnings({a}, {"/points"}),
+              ElementsAre(HasSubstr("lidar0: input.topics (/points) is not used, as folders of "
+                                    "scans have no topics")));
+  EXPECT_THAT(warnings({a, b}, {"/a", "/b"}), ElementsAre(HasSubstr("input.topics (/a, /b)")));
+  EXPECT_THAT(warnings({a, b}, {"lidar1", "lidar0"}), IsEmpty());
+  EXPECT_THAT(warnings({a}, {}), IsEmpty());
 }
 
 TEST(OpenRecording, StampsThatMayBeInMillisecondsAreTold) {
