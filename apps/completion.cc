@@ -14,13 +14,15 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// Bash takes `=` for the end of a word, so only what follows the last one is replaced.
+// Bash takes `=` for the end of a word, so only what follows the last one is replaced, and the word
+// before is not always the last of COMP_WORDS.
 constexpr char kBash[] = R"(_trajlo() {
   local line="${COMP_LINE:0:COMP_POINT}"
-  local word="${line##*[[:space:]]}" before="${COMP_WORDS[COMP_CWORD-1]}" kept=""
+  local word="${line##*[[:space:]]}" kept="" before
+  read -r -a before <<< "${line%"$word"}"
   [[ $word == *=* && $COMP_WORDBREAKS == *=* ]] && kept="${word%=*}="
   local IFS=$'\n'
-  COMPREPLY=($("${COMP_WORDS[0]}" --complete "$before" "$word" 2>/dev/null))
+  COMPREPLY=($("${COMP_WORDS[0]}" --complete "${before[-1]}" "$word" 2>/dev/null))
   COMPREPLY=("${COMPREPLY[@]#"$kept"}")
   [[ ${#COMPREPLY[@]} -eq 1 && $COMPREPLY == *= ]] && compopt -o nospace
 }

@@ -109,6 +109,7 @@ TEST(Completion, BashOffersFlagsConfigurationsScenariosAndOptions) {
   EXPECT_EQ(Offered("trajlo_run flight.bag --solver="), "ceres gauss_newton");
   EXPECT_EQ(Offered("trajlo_run flight.bag --set window.segm"), "window.segments=");
   EXPECT_EQ(Offered("trajlo_run flight.bag --set=window.segments=4,map.rad"), "4,map.radius_m=");
+  EXPECT_EQ(Offered("trajlo_run flight.bag --set window.segments=4,map.rad"), "4,map.radius_m=");
   EXPECT_EQ(Offered("trajlo_simulate hall_os1_16x"), "hall_os1_16x2");
   EXPECT_EQ(Offered("trajlo_simulate --scenario=hall_os1_16x"), "hall_os1_16x2");
   EXPECT_EQ(Offered("trajlo_evaluate a b --alignment=sim"), "sim3");
