@@ -158,8 +158,9 @@ std::vector<std::int64_t> ReadLinesFor(const ScanListing& listing, const fs::pat
   std::vector<std::int64_t> lines = ReadStampsFile(file);
   if (lines.size() >= listing.files.size()) return lines;
   throw InputError(file,
-                   CountOf(lines.size(), "stamp") + " for " +
-                       CountOf(listing.files.size(), "scan") + " in " + listing.folder.string(),
+                   "has " + CountOf(lines.size(), "stamp") + ", and " +
+                       CountOf(listing.files.size(), "scan was", "scans were") + " found in " +
+                       listing.folder.string(),
                    "Complete the stamps file, or take out the scans that it does not cover.");
 }
 
@@ -211,15 +212,17 @@ ScanStamps FindStamps(const fs::path& stamps_file, ScanListing* listing) {
   const std::size_t scans = listing->files.size();
   ScanStamps stamps;
   stamps.source = file.filename().string();
-  for (const std::size_t line : LinesOfScans(*listing, lines.size())) {
-    stamps.t_ns.push_back(lines[line]);
-  }
+  const std::vector<std::size_t> of_scans = LinesOfScans(*listing, lines.size());
+  for (const std::size_t line : of_scans) stamps.t_ns.push_back(lines[line]);
   RequireTheSameGaps(*listing, stamps.t_ns, file);
   if (lines.size() > scans) {
-    stamps.warnings.push_back(stamps.source + ": " + CountOf(lines.size(), "stamp") + " for " +
-                              CountOf(scans, "scan") + "; scan " +
-                              listing->files.back().filename().string() + " gets " +
-                              FormatSeconds(stamps.t_ns.back()));
+    const bool are_first = of_scans.back() + 1 == scans;
+    stamps.warnings.push_back(stamps.source + " has " + CountOf(lines.size(), "stamp") + ", and " +
+                              CountOf(scans, "scan was", "scans were") + " found; " +
+                              (are_first ? "the first stamps are taken"
+                                         : "the numbers in the names tell which is whose") +
+                              ", so the last scan, " + listing->files.back().filename().string() +
+                              ", has " + FormatSeconds(stamps.t_ns.back()) + " s");
   }
   WarnIfNotIncreasing(&stamps);
   return stamps;

@@ -137,7 +137,7 @@ TEST_F(StampSearch, FewerStampsThanScansIsAnErrorWithBothNumbers) {
     Find();
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("1 stamp for 2 scans"));
+    EXPECT_THAT(error.what(), HasSubstr("has 1 stamp, and 2 scans were found in"));
   }
 }
 
@@ -146,7 +146,9 @@ TEST_F(StampSearch, MoreStampsThanScansIsAWarning) {
   folder_.Write("times.txt", "5.0\n6.0\n");
   const ScanStamps stamps = Find();
   EXPECT_THAT(stamps.t_ns, ElementsAre(5 * kSecond));
-  EXPECT_THAT(stamps.warnings, ElementsAre(HasSubstr("2 stamps for 1 scan;")));
+  EXPECT_THAT(stamps.warnings,
+              ElementsAre("times.txt has 2 stamps, and 1 scan was found; the first stamps are "
+                          "taken, so the last scan, a.bin, has 5.000000000 s"));
 }
 
 TEST_F(StampSearch, WhenAScanIsMissingTheIndexInTheNamesPicksTheLine) {
@@ -154,7 +156,10 @@ TEST_F(StampSearch, WhenAScanIsMissingTheIndexInTheNamesPicksTheLine) {
     folder_.Write(name, "");
   }
   folder_.Write("timestamps.txt", "5.0\n6.0\n7.0\n8.0\n");
-  EXPECT_THAT(Find().t_ns, ElementsAre(5 * kSecond, 6 * kSecond, 8 * kSecond));
+  const ScanStamps stamps = Find();
+  EXPECT_THAT(stamps.t_ns, ElementsAre(5 * kSecond, 6 * kSecond, 8 * kSecond));
+  EXPECT_THAT(stamps.warnings,
+              ElementsAre(HasSubstr("the numbers in the names tell which is whose")));
 }
 
 TEST_F(StampSearch, NamesOfSeveralPatternsLeaveOpenWhichStampIsWhose) {
