@@ -63,6 +63,18 @@ bool IsLikeKitti(const CloudInspection& cloud) {
          points.elevation_99_deg > 0.0 && points.elevation_99_deg < 4.5;
 }
 
+/// The drivers of the VLP-16 and the HDL-32E give `time` in seconds within the sweep. Others use
+/// the same names, and mean other times or have more lasers.
+bool IsLikeVelodyne(const CloudInspection& cloud) {
+  const TimeConvention& times = cloud.convention;
+  const bool has_fields = HasField(cloud, "time", "float32") && HasField(cloud, "ring", "");
+  const bool are_of_the_sweep =
+      times.field == "time" && times.unit == TimeUnit::kSeconds && !times.IsAbsolute();
+  constexpr std::uint32_t kMostLasers = 32;
+  return has_fields && are_of_the_sweep &&
+         (!cloud.points.rings || cloud.points.rings->highest < kMostLasers);
+}
+
 /// The config of a LiDAR, by what writes such points; empty if nothing is typical.
 std::string ConfigOf(const CloudInspection& cloud) {
   if (IsLikeKitti(cloud)) return "kitti";
@@ -70,7 +82,7 @@ std::string ConfigOf(const CloudInspection& cloud) {
   if (HasField(cloud, "timestamp", "float64")) return "hesai";
   if (Contains(cloud.type, "packets")) return Contains(cloud.type, "OS-") ? "ouster" : "velodyne";
   if (HasField(cloud, "t", "uint32") && HasField(cloud, "reflectivity", "")) return "ouster";
-  if (HasField(cloud, "time", "float32") && HasField(cloud, "ring", "")) return "velodyne";
+  if (IsLikeVelodyne(cloud)) return "velodyne";
   return "";
 }
 
@@ -240,6 +252,11 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
     AddDatasetRemark(*dataset, recording.rig_config.empty(), &advice);
   } else {
     AddSameFrameRemarks(clouds, &advice);
+  }
+  if (advice.config == "velodyne" && !Contains(clouds.front().type, "packets")) {
+    advice.remarks.emplace_back(
+        "the fields are named as by Velodyne's drivers; the configuration keeps to the ranges of a "
+        "VLP-16 or HDL-32E, so leave out -c velodyne if it is another LiDAR");
   }
   for (const CloudInspection& cloud : clouds) AddTimeRemarks(cloud, advice.config, &advice);
   return advice;

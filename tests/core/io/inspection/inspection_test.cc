@@ -217,10 +217,41 @@ TEST(AdviseRun, TellsTheSensorByItsFields) {
     return AdviseRun(Recording({Cloud("/points", std::move(fields))})).config;
   };
   EXPECT_EQ(config({{"t", "uint32", 20}, {"reflectivity", "uint16", 24}}), "ouster");
-  EXPECT_EQ(config({{"ring", "uint16", 16}, {"time", "float32", 18}}), "velodyne");
   EXPECT_EQ(config({{"timestamp", "float64", 16}}), "hesai");
   EXPECT_EQ(config({{"offset_time", "uint32", 0}}), "livox");
   EXPECT_EQ(config({{"x", "float32", 0}}), "");
+}
+
+/// A cloud with the fields that Velodyne's drivers write, `time` in seconds within the sweep.
+CloudInspection LikeVelodyne() {
+  CloudInspection cloud = Cloud("/points", {{"ring", "uint16", 16}, {"time", "float32", 18}});
+  cloud.convention.field = "time";
+  cloud.convention.unit = TimeUnit::kSeconds;
+  return cloud;
+}
+
+TEST(AdviseRun, TakesNoOtherLidarForAVelodyneThatHasAFieldCalledTime) {
+  CloudInspection cloud = LikeVelodyne();
+  for (const TimeOrigin origin :
+       {TimeOrigin::kSweepStart, TimeOrigin::kStamp, TimeOrigin::kSweepEnd}) {
+    cloud.convention.origin = origin;
+    const RunAdvice advice = AdviseRun(Recording({cloud}));
+    EXPECT_EQ(advice.config, "velodyne");
+    EXPECT_THAT(advice.remarks, Contains(HasSubstr("leave out -c velodyne if it is another")));
+  }
+  cloud.convention.origin = TimeOrigin::kAbsolute;
+  EXPECT_EQ(AdviseRun(Recording({cloud})).config, "");
+  cloud = LikeVelodyne();
+  cloud.convention.unit = TimeUnit::kMicroseconds;
+  EXPECT_EQ(AdviseRun(Recording({cloud})).config, "");
+  cloud = LikeVelodyne();
+  cloud.convention = {};  // None could be decided.
+  EXPECT_EQ(AdviseRun(Recording({cloud})).config, "");
+  cloud = LikeVelodyne();
+  cloud.points.rings = PointSummary::Rings{32, 0, 31};
+  EXPECT_EQ(AdviseRun(Recording({cloud})).config, "velodyne");
+  cloud.points.rings = PointSummary::Rings{64, 0, 63};
+  EXPECT_EQ(AdviseRun(Recording({cloud})).config, "");
 }
 
 /// A folder of .bin scans without times, seen by a LiDAR of this field of view.
