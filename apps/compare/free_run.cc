@@ -7,6 +7,7 @@
 #include "core/comparison/forms/ceres_form_solver.h"
 #include "core/io/trajectory_writer.h"
 #include "core/odometry/odometry.h"
+#include "core/report/processing_time.h"
 #include "core/report/resource_usage.h"
 #include "core/report/window_csv.h"
 
@@ -30,14 +31,17 @@ FreeResult RunFree(const CompareRequest& request, const SolverVariant& variant,
   const double cpu_begin_s = ProcessCpuSeconds();
   Odometry odometry(variant.odometry, MakeSolverFactory(variant.ceres_form));
   double inlier_share = 0.0;
+  std::vector<double> solve_ms;
   odometry.OnWindow([&](const WindowStatistics& window) {
     windows.Append(window);
     result.windows.Add(window);
     result.rejected_steps += window.rejected_steps;
+    solve_ms.push_back(window.milliseconds_solve);
     inlier_share = window.InlierShare();
   });
   result.feed = FeedRecording(request, variant.name, stop, inlier_share, &odometry);
   result.cpu_s = ProcessCpuSeconds() - cpu_begin_s;
+  result.median_solve_ms = Quantile(std::move(solve_ms), 0.5);
 
   TumWriter trajectory(folder / "trajectory.tum", IfExists::kReplace);
   for (const ControlPose& pose : odometry.trajectory().poses()) {

@@ -20,7 +20,8 @@ struct FreeResult {
   std::vector<StampedPose> poses;
   WindowTotals windows;
   int rejected_steps = 0;
-  double cpu_s = 0.0;  ///< Of the whole process while it ran: reading and estimating.
+  double median_solve_ms = 0.0;  ///< Of a window, over all its rounds.
+  double cpu_s = 0.0;            ///< Of the whole process while it ran: reading and estimating.
   Feed feed;
   /// Against the first variant: how many poses have a time that it has, too, the largest distance
   /// of two such poses, and the time of the first pair that is farther apart than a micrometre.
