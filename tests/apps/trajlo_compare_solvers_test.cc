@@ -127,6 +127,19 @@ TEST_F(TrajloCompareSolversTest, ATruthOfAnotherTimeIsRefusedBeforeTheFirstRun) 
   EXPECT_THAT(outcome.err, HasSubstr("no run could be compared with the truth"));
 }
 
+TEST_F(TrajloCompareSolversTest, AWrongFirstStampDoesNotRefuseAGoodTruth) {
+  std::ofstream stamps(temp_ / "in/timestamps.txt");
+  stamps << "5.0\n";
+  for (int i = 1; i < 8; ++i) stamps << RoomRecording::kStart + i * RoomRecording::kPeriod << "\n";
+  stamps.close();
+  WriteFile(temp_ / "truth.tum", "1000 0 0 0 0 0 0 1\n1001 0 0 0 0 0 0 1\n");
+  const Outcome outcome =
+      Call({"--only=gauss_newton", "--mode=lockstep", "--truth=" + (temp_ / "truth.tum").string()});
+  EXPECT_NE(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("is of another time")));
+  EXPECT_FALSE(Result("comparison.json").empty());
+}
+
 TEST_F(TrajloCompareSolversTest, WithoutAWindowNothingIsCompared) {
   RoomRecording room;
   room.scans = 1;
