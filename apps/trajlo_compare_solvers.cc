@@ -10,6 +10,7 @@
 #include "apps/command.h"
 #include "apps/compare/compare_job.h"
 #include "apps/config_names.h"
+#include "apps/did_you_mean.h"
 #include "apps/inputs.h"
 #include "apps/interrupt.h"
 #include "apps/load_config.h"
@@ -86,17 +87,21 @@ std::vector<trajlo::SolverVariant> Choose(const std::vector<trajlo::SolverVarian
   if (only.empty()) return variants;
   std::vector<trajlo::SolverVariant> chosen;
   for (const std::string& name : only) {
-    std::string names;
+    std::vector<std::string> names;
     if (std::count(only.begin(), only.end(), name) > 1) {
       throw UsageError("--only: '" + name + "' appears twice; name each variant once");
     }
     for (const auto& variant : variants) {
       if (variant.name == name) chosen.push_back(variant);
-      names += " " + variant.name;
+      names.push_back(variant.name);
     }
-    if (chosen.empty() || chosen.back().name != name) {
-      throw UsageError("--only: no variant '" + name + "'; there are:" + names);
+    if (!chosen.empty() && chosen.back().name == name) continue;
+    std::string mend = trajlo::DidYouMean(name, names);
+    if (mend.empty()) {
+      mend = "; there are:";
+      for (const std::string& other : names) mend += " " + other;
     }
+    throw UsageError("--only: no variant '" + name + "'" + mend);
   }
   return chosen;
 }
@@ -115,7 +120,8 @@ trajlo::CompareRequest RequestFromFlags(const trajlo::CommandLine& line) {
   request.variants =
       Choose(trajlo::LoadVariants(variants, request.config), trajlo::SplitAtCommas(FLAGS_only));
   if (FLAGS_mode != "both" && FLAGS_mode != "lockstep" && FLAGS_mode != "free") {
-    throw UsageError("--mode: must be lockstep, free or both, found '" + FLAGS_mode + "'");
+    throw UsageError("--mode: must be lockstep, free or both, found '" + FLAGS_mode + "'" +
+                     trajlo::DidYouMean(FLAGS_mode, {"lockstep", "free", "both"}));
   }
   if (FLAGS_every < 1) throw UsageError("--every: must be at least 1");
   request.lockstep = FLAGS_mode != "free";

@@ -11,6 +11,7 @@
 #include "apps/command.h"
 #include "apps/convert/convert_job.h"
 #include "apps/convert/pose_files.h"
+#include "apps/did_you_mean.h"
 #include "apps/interrupt.h"
 #include "apps/load_config.h"
 #include "apps/split_at_commas.h"
@@ -139,11 +140,13 @@ trajlo::ExportOptions ExportsFromFlags() {
   exports.voxel_m = FLAGS_voxel_m;
   const auto color = trajlo::ParseColorBy(FLAGS_color);
   if (!color) {
-    throw UsageError("--color: must be height, intensity or time, found '" + FLAGS_color + "'");
+    throw UsageError("--color: must be height, intensity or time, found '" + FLAGS_color + "'" +
+                     trajlo::DidYouMean(FLAGS_color, {"height", "intensity", "time"}));
   }
   exports.color = *color;
   if (FLAGS_frame != "body" && FLAGS_frame != "world") {
-    throw UsageError("--frame: must be body or world, found '" + FLAGS_frame + "'");
+    throw UsageError("--frame: must be body or world, found '" + FLAGS_frame + "'" +
+                     trajlo::DidYouMean(FLAGS_frame, {"body", "world"}));
   }
   exports.frame = FLAGS_frame == "body" ? trajlo::PointFrame::kBody : trajlo::PointFrame::kWorld;
   if (FLAGS_scan_format != "pcd" && FLAGS_scan_format != "ply") {
@@ -244,7 +247,8 @@ trajlo::ConvertRequest RequestFromFlags(std::vector<std::string> arguments) {
   if (!FLAGS_layout.empty()) {
     request.layout = trajlo::ParseCloudLayout(FLAGS_layout);
     if (!request.layout) {
-      throw UsageError("--layout: must be ouster, velodyne or livox, found '" + FLAGS_layout + "'");
+      throw UsageError("--layout: must be ouster, velodyne or livox, found '" + FLAGS_layout + "'" +
+                       trajlo::DidYouMean(FLAGS_layout, {"ouster", "velodyne", "livox"}));
     }
   }
   request.exports = ExportsFromFlags();

@@ -8,6 +8,7 @@
 
 #include "apps/command.h"
 #include "apps/config_names.h"
+#include "apps/did_you_mean.h"
 #include "apps/inputs.h"
 #include "apps/interrupt.h"
 #include "apps/load_config.h"
@@ -110,7 +111,8 @@ trajlo::SamplingOptions SamplingFromFlags() {
   if (FLAGS_at == "scan-end") return {trajlo::SampleAt::kScanEnd, 0.0};
   if (FLAGS_at == "scan-mid") return {trajlo::SampleAt::kScanMid, 0.0};
   if (!FLAGS_at.empty()) {
-    throw UsageError("--at: must be scan-end or scan-mid, found '" + FLAGS_at + "'");
+    throw UsageError("--at: must be scan-end or scan-mid, found '" + FLAGS_at + "'" +
+                     trajlo::DidYouMean(FLAGS_at, {"scan-end", "scan-mid"}));
   }
   return {};
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "apps/command.h"
+#include "apps/did_you_mean.h"
 #include "apps/interrupt.h"
 #include "apps/usage_error.h"
 #include "core/config/edit_distance.h"
@@ -181,7 +182,7 @@ std::optional<trajlo::simulation::BagFormat> BagFormatFromFlags(const Scenario& 
   format.layout = trajlo::ParseCloudLayout(FLAGS_bag_layout);
   if (!format.layout && !FLAGS_bag_layout.empty()) {
     throw UsageError("--bag_layout: must be ouster, velodyne or livox, found '" + FLAGS_bag_layout +
-                     "'");
+                     "'" + trajlo::DidYouMean(FLAGS_bag_layout, {"ouster", "velodyne", "livox"}));
   }
   const auto compression = trajlo::ros1::FindCompression(FLAGS_bag_compression);
   if (!compression) {

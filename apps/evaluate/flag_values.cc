@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "apps/did_you_mean.h"
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
 #include "core/io/number_text.h"
@@ -34,13 +35,15 @@ const Names<TruthOrientation> kOrientations = {{"auto", TruthOrientation::kAuto}
 
 template <typename T>
 T Find(const Names<T>& names, const char* flag, const std::string& text) {
-  std::string known;
+  std::vector<std::string> known;
+  std::string list;
   for (const auto& [name, value] : names) {
     if (text == name) return value;
-    known += std::string(known.empty() ? "" : ", ") + name;
+    known.emplace_back(name);
+    list += std::string(list.empty() ? "" : ", ") + name;
   }
-  throw UsageError(std::string("--") + flag + ": must be one of " + known + ", found '" + text +
-                   "'");
+  throw UsageError(std::string("--") + flag + ": must be one of " + list + ", found '" + text +
+                   "'" + DidYouMean(text, known));
 }
 
 template <typename T>

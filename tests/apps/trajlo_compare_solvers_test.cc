@@ -160,8 +160,12 @@ TEST_F(TrajloCompareSolversTest, AVariantIsNamedOnce) {
 TEST_F(TrajloCompareSolversTest, ErrorsHaveTheDocumentedCodes) {
   const Outcome unknown = Call({"--only=nobody"});
   EXPECT_EQ(unknown.exit_code, 1);
-  EXPECT_THAT(unknown.err, HasSubstr("no variant 'nobody'"));
+  EXPECT_THAT(unknown.err, HasSubstr("no variant 'nobody'; there are: gauss_newton "));
+  EXPECT_THAT(Call({"--only=gauss_newton,cerse"}).err,
+              HasSubstr("no variant 'cerse'; did you mean 'ceres'?"));
   EXPECT_EQ(Call({"--mode=fast"}).exit_code, 1);
+  EXPECT_THAT(Call({"--mode=lockstpe"}).err,
+              HasSubstr("found 'lockstpe'; did you mean 'lockstep'?"));
   const Outcome two_lidars = Call({}, "a,b");
   EXPECT_EQ(two_lidars.exit_code, 1);
   EXPECT_THAT(two_lidars.err, HasSubstr("sensor.T_body_lidar is empty"));
