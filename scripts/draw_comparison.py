@@ -37,7 +37,7 @@ def draw_lockstep(folder, lockstep, width_in):
         ("stages", figures.draw_stages(lockstep, width_in),
          with_notes(f"Time of a window by stage, and relative to {first}", slow)),
         ("distances", figures.draw_distances(table, lockstep, width_in),
-         with_notes(f"Share of the windows whose solution is at most so far from that of {first}",
+         with_notes(f"Share of the windows whose solution is at most this far from that of {first}",
                     [([first], "the others are compared with it")])),
         ("points", figures.draw_points(table, lockstep, width_in),
          with_notes("Time of a step against the number of points; each mark is a window", []))]

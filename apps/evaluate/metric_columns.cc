@@ -57,7 +57,7 @@ void AddRelative(const RelativeErrorOptions& piece, std::size_t index,
   add("_point_distance_rmse_m", " dist. [m]", 3, &PoseErrorStatistics::point_distance_m, false);
 }
 
-/// So many that three digits of the smallest value are seen, but at most two more than usual:
+/// As many as show three digits of the smallest value, but at most two more than usual:
 /// estimates that differ by a tenth of a millimetre are not the same.
 int Decimals(const MetricColumn& column, const EvaluationReport& report) {
   constexpr int kDigits = 3, kMore = 2;

@@ -30,7 +30,7 @@ struct LockstepOptions {
   /// Each window is solved until the steps are this small, so that solutions can be compared.
   int max_iterations = 30;
   StepSize step_tolerance = {1e-9, 1e-10};
-  /// Every so many windows are compared.
+  /// One window out of this many is compared.
   int every = 1;
 };
 

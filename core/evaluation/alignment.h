@@ -29,7 +29,7 @@ struct AlignmentOptions {
   AlignmentKind kind = AlignmentKind::kSe3;
   /// Positive: it is computed from this many pairs at the beginning, and applied to all.
   std::size_t first_pairs = 0;
-  /// Positive: it is computed from the pairs of so many seconds at the beginning.
+  /// Positive: it is computed from the pairs of this many seconds at the beginning.
   double first_seconds = 0.0;
 };
 

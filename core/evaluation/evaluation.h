@@ -34,7 +34,7 @@ struct EvaluationOptions {
   double time_offset_s = 0.0;
   bool estimate_time_offset = false;
   double time_offset_reach_s = 0.5;
-  /// The estimate covers what lies between two poses that are at most so far apart.
+  /// The estimate covers what lies between two poses that are at most this far apart.
   double max_estimate_gap_s = 1.0;
   DivergenceOptions divergence;
 };

@@ -28,7 +28,7 @@ double ValueOf(const Surfel& surfel, ColorBy by, std::int64_t origin_ns) {
   return 0.0;
 }
 
-/// The value that so much of all lies below.
+/// The value below which this share of all lies.
 double Quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());

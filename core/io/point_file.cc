@@ -67,7 +67,7 @@ bool HasCoordinatesAsIntensity(const FileBytes& bytes) {
   return 20 * negative > checked;
 }
 
-/// "6", or "3 or 5", if the file seems to hold so many numbers a point; else empty.
+/// "6", or "3 or 5", if the file seems to hold that many numbers a point; else empty.
 std::string OtherWidth(const FileBytes& bytes, bool has_rings) {
   const auto fits = [&](std::size_t width) { return bytes.size() % (width * sizeof(float)) == 0; };
   for (const std::size_t width : {6, 7, 8}) {

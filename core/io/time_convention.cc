@@ -23,7 +23,7 @@ constexpr char kMend[] =
 
 std::string Number(double value) { return FormatText("%.9g", value); }
 
-/// Of so many scans, one may be broken; of fewer, none.
+/// Of four scans, one may be broken; of fewer, none.
 std::size_t BrokenAllowed(const std::vector<TimeSample>& samples) {
   return samples.size() >= 4 ? 1 : 0;
 }
@@ -111,7 +111,7 @@ TimeOrigin RelativeOrigin(const Summary& summary) {
   return TimeOrigin::kStamp;
 }
 
-/// From the smallest to the largest value, without so many that are farthest from the median.
+/// From the smallest to the largest value, without the `left_out` farthest from the median.
 double RangeOfMost(std::vector<double> values, std::size_t left_out) {
   const double middle = UpperMedian(values);
   std::sort(values.begin(), values.end(),

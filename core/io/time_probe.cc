@@ -13,7 +13,7 @@ namespace {
 
 /// Several scans, as the first is often partial, and one may be broken.
 constexpr std::size_t kUsable = 5;
-/// Times that are the same for all points of so many scans are no times.
+/// Times that are the same for all points of this many scans are no times.
 constexpr std::size_t kConstant = 20;
 /// With fewer points, the ends of a sweep are anywhere.
 constexpr std::size_t kFewestPoints = 10;

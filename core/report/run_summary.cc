@@ -12,7 +12,7 @@ namespace {
 
 /// A smaller part of the input is not worth an exit code.
 constexpr double kSizeableShare = 0.05;
-/// What no point holds for so long may be metres off: the calmest motion that the motion prior
+/// What no point holds for this long may be metres off: the calmest motion that the motion prior
 /// assumes (0.5 m²/s³) strays by 4.6 m.
 constexpr double kLongOpen_s = 5.0;
 /// Who swings on a rope, and is found each time, is in doubt for up to a fifth of the time; who

@@ -15,7 +15,7 @@
 namespace trajlo {
 
 struct ScanSamplingOptions {
-  /// The points of so much time are seen together: a sweep of most LiDARs.
+  /// The points of this much time are seen together: a sweep of most LiDARs.
   std::int64_t moment_ns = 100'000'000;
   /// With the points of a moment, this bounds the memory however long the run is.
   std::size_t max_moments = 300;

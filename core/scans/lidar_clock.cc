@@ -11,7 +11,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kDelayTolerance_ns = kSecond;
 /// Closer than this, a time of recording is a copy of the stamp: no recorder is so fast.
 constexpr std::int64_t kCopy_ns = 20'000;
-/// Until so many steps are known, the guess at the start holds.
+/// Until this many steps are known, the guess at the start holds.
 constexpr std::size_t kStepsForPeriod = 5;
 constexpr std::size_t kRemembered = 16;
 /// A LiDAR that is slower is none.

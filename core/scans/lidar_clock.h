@@ -36,7 +36,7 @@ class LidarClock {
 
   /// With the offset.
   ScanPlace PlaceOf(const LidarScan& scan, const ScanTimes& times) const;
-  /// True if so much time between two scans is about one period.
+  /// True if that much time between two scans is about one period.
   bool IsPeriod(std::int64_t step_ns) const;
   /// True if it is one period, give or take one and a half: stamps jitter, and a scan may be lost.
   bool IsRoughlyPeriod(std::int64_t step_ns) const;

@@ -26,7 +26,7 @@ struct HeldScan {
   std::int64_t arrival = 0;
   /// The newest scan of the LiDAR that came first, when this one came; as it was recorded.
   std::int64_t reference_ns = 0;
-  /// By so many scans that came later.
+  /// By how many scans that came later.
   int overtaken = 0;
   /// It changed times with another one.
   bool is_exchanged = false;
@@ -123,7 +123,7 @@ class LidarTrack {
   std::int64_t first_ns() const { return first_ns_; }
 
  private:
-  /// While so many are held, the oldest waits for more.
+  /// While this many are held, the oldest waits for more.
   static constexpr std::size_t kMostHeld = 8;
 
   void NoteAt(const ScanPlace& place, const LidarScan& scan, const ScanTimes& times);

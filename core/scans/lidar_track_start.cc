@@ -7,11 +7,11 @@
 namespace trajlo {
 namespace {
 
-/// So many scans show the period, in spite of one with a wrong stamp; ...
+/// This many scans show the period, in spite of one with a wrong stamp; ...
 constexpr std::size_t kHeldAtStart = 5;
-/// ... but where no three of them come at an even pace, so many are awaited.
+/// ... but where no three of them come at an even pace, this many are awaited.
 constexpr std::size_t kMostHeldAtStart = 12;
-/// So many go on from each other behind a step of the clock.
+/// This many go on from each other behind a step of the clock.
 constexpr std::size_t kBehindStep = 5;
 
 }  // namespace

@@ -15,12 +15,12 @@
 namespace trajlo {
 namespace {
 
-/// For each LiDAR, so many scans wait at most.
+/// For each LiDAR, at most this many scans wait.
 constexpr std::size_t kMostQueued = 16;
 constexpr std::size_t kMostRemarks = 20;
-/// LiDARs of one recording begin and end within so much, or not at the same distance.
+/// LiDARs of one recording begin and end within this much, or not at the same distance.
 constexpr std::int64_t kSmallShift_ns = 1'000'000'000;
-/// A walker moves by three centimetres in so much time.
+/// A walker moves by three centimetres in this much time.
 constexpr std::int64_t kLargeDrift_ns = 20'000'000;
 
 std::string SecondsText(std::int64_t ns) {

@@ -10,7 +10,7 @@ namespace trajlo {
 namespace {
 
 constexpr std::int64_t kLatest = std::int64_t{1} << 62;
-/// The middle of a scan is that of so many of its points.
+/// The middle of a scan is that of this many of its points.
 constexpr std::size_t kSamples = 1024;
 
 bool IsSane(std::int64_t t_ns) { return t_ns > -kLatest && t_ns < kLatest; }

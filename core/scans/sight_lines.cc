@@ -12,7 +12,7 @@ constexpr float kCellsPerUnit = 50.0F;
 /// Nearer points are of the carrier.
 constexpr float kNear_m = 0.5F;
 constexpr float kBehind = 1.2F;
-/// So many points are a thing.
+/// This many points are a thing.
 constexpr std::size_t kThing = 2;
 /// Half way between scans as measured and registered clouds.
 constexpr double kCrossed = 0.17;

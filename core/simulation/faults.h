@@ -27,10 +27,10 @@ struct FaultConfig {
   int silent_lidar = -1;
   double silent_from_s = 0.0;
   double silent_until_s = 0.0;
-  /// For so long, nothing is recorded (from the start of the recording on; 0: never).
+  /// For this long, nothing is recorded (from the start of the recording on; 0: never).
   double pause_from_s = 0.0;
   double pause_s = 0.0;
-  /// For so long, all LiDARs look at a cover: every point is `cover_m` away.
+  /// For this long, all LiDARs look at a cover: every point is `cover_m` away.
   double cover_from_s = 0.0;
   double cover_s = 0.0;
   double cover_m = 0.6;

@@ -64,7 +64,7 @@ def counted(summary):
 
 
 def read_sparsely(path, every):
-    """Every so many-th pose of a long file."""
+    """One pose of every `every` in a long file."""
     beside = pathlib.Path(path).with_suffix(".sparse")
     with pathlib.Path(path).open() as source, beside.open("w") as target:
         for number, line in enumerate(source):

@@ -8,7 +8,7 @@ from trajlo_report.evaluated import legend_over
 from trajlo_report.log_axis import plain_log
 
 SMALLEST_M = 1e-16  # solutions that are equal are drawn here
-FAST = 3.0          # bars of stages show variants up to so many times the yardstick's time
+FAST = 3.0          # bars of stages show variants up to this many times the yardstick's time
 
 
 def rows_of(table, variant):

@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 from trajlo_report import files
 
 FARTHEST_M = 1e6  # what is farther is of an estimate that exploded
-BUDGET = 1_000_000  # points; an integrated graphics chip turns so many smoothly
+BUDGET = 1_000_000  # points; an integrated graphics chip turns this many smoothly
 
 
 @dataclasses.dataclass

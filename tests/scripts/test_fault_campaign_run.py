@@ -13,7 +13,7 @@ from trajlo_campaign import campaign, judge, scenes
 from trajlo_campaign.draw import Drawn
 
 RUNS = 24
-# Of so many runs; each is a defect that scripts/fault_campaign shows.
+# Of that many runs; each is a defect that scripts/fault_campaign shows.
 MOST_WRONG_IN_SILENCE = 4
 
 

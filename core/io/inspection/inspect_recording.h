@@ -16,7 +16,7 @@ namespace trajlo {
 
 struct InspectionOptions {
   CloudOptions clouds;
-  /// Stop after so many messages of each LiDAR; 0 reads everything.
+  /// Stop after this many messages of each LiDAR; 0 reads everything.
   std::size_t messages_per_lidar = 0;
   /// Told the messages read so far and those that are listed.
   std::function<void(std::size_t, std::size_t)> on_progress;

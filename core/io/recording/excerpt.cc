@@ -8,7 +8,7 @@ namespace {
 /// this much still belongs to the excerpt.
 constexpr std::int64_t kOverlapNs = 1'000'000'000;
 
-/// So many scans in a row behind that are the end; one may have a wrong stamp.
+/// This many scans in a row behind that are the end; one may have a wrong stamp.
 constexpr int kBeyond = 5;
 /// A longer step between two stamps is one of a clock, or a wrong stamp.
 constexpr std::int64_t kLongestStepNs = 60'000'000'000;

@@ -36,7 +36,7 @@ namespace trajlo {
 /// what is decompressed ahead (see ChunksAhead).
 class Ros1BagReader : public RawMessageReader {
  public:
-  /// So many `threads` (0: one for each core) decompress the bz2 chunks that come next, unless it
+  /// That many `threads` (0: one for each core) decompress the bz2 chunks that come next, unless it
   /// is 1; messages and report do not depend on it. Throws InputError: no such file, not a bag,
   /// encrypted, or damaged without a message left.
   explicit Ros1BagReader(const std::filesystem::path& path, int threads = 1);

@@ -23,7 +23,7 @@ struct MotionConfig {
   /// replay: the poses of a TUM file, joined by a cubic spline.
   /// still: it stands still.
   std::string kind = "walk";
-  /// Standing still at first for so long, unless it starts in motion.
+  /// Standing still at first for this long, unless it starts in motion.
   double rest_s = 1.8;
   bool moving_start = false;
   double speed_mps = 1.2;

@@ -137,7 +137,7 @@ TEST(ScanSequencer, ScansOfWhichEverySecondPointIsMissingAreNotStuck) {
   for (int i = 0; i < 20; ++i) {
     LidarScan scan = MakeScan(i, kStart + i * kPeriod);
     const std::vector<LidarPoint> points = scan.points;
-    // So many that a fingerprint is made of some of them.
+    // Enough that a fingerprint is made of some of them.
     for (int copy = 0; copy < 1600; ++copy) {
       scan.points.insert(scan.points.end(), points.begin(), points.end());
     }

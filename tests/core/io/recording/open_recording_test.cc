@@ -186,7 +186,7 @@ std::string EmptyVelodynePacket(int index, char product = 0x22) {
   return packet + '\x37' + product;
 }
 
-/// So many points in KITTI's format.
+/// This many points in KITTI's format.
 std::string KittiScan(int points) {
   std::string bytes;
   for (int i = 0; i < 4 * points; ++i) {

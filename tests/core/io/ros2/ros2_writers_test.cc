@@ -22,7 +22,7 @@ const TopicDescription kTf{"/tf", TfMessageDescription()};
 const TopicDescription kStatic{"/tf_static", TfMessageDescription(), true};
 const TopicDescription kCloud{"/points", PointCloud2Description()};
 
-/// So many messages, those of /tf_static and one of /points at the start though written last.
+/// This many messages, those of /tf_static and one of /points at the start though written last.
 std::vector<NamedMessage> WriteMessages(int count, BagWriter* bag) {
   std::vector<NamedMessage> messages;
   const auto write = [&](const TopicDescription& topic, std::int64_t t_ns, std::size_t size) {
