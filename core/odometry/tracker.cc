@@ -161,6 +161,7 @@ void Tracker::LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* stat
   statistics->translation_density_m2_s3 = motion_prior_.density()[0];
   statistics->rotation_density_rad2_s3 = motion_prior_.density()[3];
   statistics->velocity_persistence = motion_prior_.persistence().share();
+  statistics->noise_factor = motion_prior_.noise_factor();
 }
 
 /// Judges the window by those before it as well.

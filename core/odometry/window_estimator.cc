@@ -26,6 +26,7 @@ void WindowEstimator::AssociateAndSolve(const MapPyramid& map, Window* window,
     s->Add(solver_->Solve(window), options_);
     if (is_widened) {
       kernel.Restore(newest);
+      ++s->widened_rounds;
       s->has_converged = false;
     }
     s->milliseconds_solve += watch.Milliseconds();

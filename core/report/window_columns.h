@@ -28,6 +28,7 @@ void AddWindowColumns(const WindowStatistics& w, Row* row) {
   row->Add("translation_density_m2_s3", w.translation_density_m2_s3);
   row->Add("rotation_density_rad2_s3", w.rotation_density_rad2_s3);
   row->Add("velocity_persistence", w.velocity_persistence);
+  row->Add("noise_factor", w.noise_factor);
   row->Add("correction_m", w.correction.translation_m);
   row->Add("correction_rad", w.correction.rotation_rad);
   row->Add("smallest_eigenvalue", w.smallest_eigenvalue);

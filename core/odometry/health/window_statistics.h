@@ -44,10 +44,11 @@ struct WindowStatistics {
   std::int64_t begin_ns = 0;  ///< First control pose of the window.
   std::int64_t end_ns = 0;    ///< Newest control pose.
   int segments = 0;
-  int points = 0;    ///< Registration points in the window.
-  int inliers = 0;   ///< Those with a plane in the last round.
-  int searched = 0;  ///< Map queries over all rounds; the others kept their plane.
-  int rounds = 0;    ///< associate ↔ solve rounds.
+  int points = 0;          ///< Registration points in the window.
+  int inliers = 0;         ///< Those with a plane in the last round.
+  int searched = 0;        ///< Map queries over all rounds; the others kept their plane.
+  int rounds = 0;          ///< associate ↔ solve rounds.
+  int widened_rounds = 0;  ///< The first ones, in which kernels were wider: see GraduatedKernel.
   StepSize restless = kRestlessStep;
   int restless_rounds = 0;  ///< The last round after which a step larger than that was expected.
   int iterations = 0;       ///< Solver steps over all rounds.
@@ -58,6 +59,8 @@ struct WindowStatistics {
   double rotation_density_rad2_s3 = 0.0;
   /// The share of a velocity beyond its mean that is left after 0.3 s: see VelocityPersistence.
   double velocity_persistence = 1.0;
+  /// By how much the variance of the points is larger than assumed: see MotionPrior.
+  double noise_factor = 1.0;
   /// How far the points moved the newest pose from where the motion prior had put it.
   StepSize correction;
   double agreement = 0.0;  ///< MapAgreement::worst, of the newest segment.
@@ -80,9 +83,10 @@ struct WindowStatistics {
   /// Whether another round is due.
   bool GoesOn(int max_rounds) const { return rounds < max_rounds && !has_converged && is_finite; }
 
-  /// A window that follows the scene settles within five rounds, but for the first ones of a jerk.
-  /// Unlike has_converged, this does not depend on the tolerance and the rounds of the options.
-  bool IsRestless() const { return restless_rounds >= kRoundsToSettle; }
+  /// A window that follows the scene settles within five rounds with kernels of their own width,
+  /// but for the first windows of a jerk. Unlike has_converged, this does not depend on the
+  /// tolerance and the rounds of the options.
+  bool IsRestless() const { return restless_rounds >= widened_rounds + kRoundsToSettle; }
   double InlierShare() const { return points > 0 ? static_cast<double>(inliers) / points : 0.0; }
   /// Fewer points than at any place that is in the map have a plane.
   bool HasFewInliers() const { return InlierShare() < 0.3; }

@@ -109,6 +109,17 @@ TEST(LossWatch, IsNotLostWhileHalfOfTheWindowsSettle) {
 }
 
 /// Whether a window settled does not depend on the tolerance or the rounds that the options give.
+/// Rounds with wider kernels are still on the way to the planes.
+TEST(LossWatch, RoundsWithWiderKernelsDoNotMakeAWindowRestless) {
+  WindowStatistics window;
+  window.restless_rounds = 6;
+  EXPECT_TRUE(window.IsRestless());
+  window.widened_rounds = 2;
+  EXPECT_FALSE(window.IsRestless());
+  window.restless_rounds = 7;
+  EXPECT_TRUE(window.IsRestless());
+}
+
 TEST(LossWatch, AWindowIsRestlessWhileStepsAreLarge) {
   SolverOptions options;
   options.step_tolerance = {1e-9, 1e-9};
