@@ -50,7 +50,7 @@ MarginalizationPrior MarginalizeSchur(const Eigen::MatrixXd& H, const Eigen::Vec
   const Matrix6d H_ll = H.topLeftCorner<6, 6>();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H_ll);
   const Vector6d& values = eigen.eigenvalues();
-  const double smallest = 1e-14 * std::max(values.maxCoeff(), 0.0);
+  const double smallest = kNoInformation * std::max(values.maxCoeff(), 0.0);
   const Vector6d inverse =
       values.unaryExpr([smallest](double v) { return v > smallest ? 1.0 / v : 0.0; });
   const Matrix6d H_ll_inverse =

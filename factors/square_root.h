@@ -20,8 +20,11 @@ struct SquareRoot {
   Vector s;
 };
 
+/// A direction with less than this share of the largest information has none: the rest is rounding.
+constexpr double kNoInformation = 1e-14;
+
 /// The square root of a positive semi-definite H by pivoted LDLᵀ: PHPᵀ = LDLᵀ, S = D^½ Lᵀ P and
-/// s = D^-½ L⁻¹ P g. Directions whose pivot is below 1e-14 of the largest one carry no information:
+/// s = D^-½ L⁻¹ P g. Directions whose pivot is below kNoInformation of the largest one carry none:
 /// their rows are zero (g has no part there when it comes from the same residuals as H).
 template <int N>
 SquareRoot<N> MakePivotedSquareRoot(const typename SquareRoot<N>::Matrix& H,
@@ -30,7 +33,7 @@ SquareRoot<N> MakePivotedSquareRoot(const typename SquareRoot<N>::Matrix& H,
   using Vector = typename SquareRoot<N>::Vector;
   const Eigen::LDLT<Matrix> ldlt(H);
   const Vector D = ldlt.vectorD();
-  const double smallest = 1e-14 * D.cwiseAbs().maxCoeff();
+  const double smallest = kNoInformation * D.cwiseAbs().maxCoeff();
   Vector root = Vector::Zero(D.size());
   Vector inverse_root = root;
   for (Eigen::Index i = 0; i < D.size(); ++i) {

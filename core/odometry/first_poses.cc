@@ -36,8 +36,7 @@ std::optional<std::vector<SE3>> Followed(const std::vector<SegmentCloud>& segmen
     SegmentCloud segment = segments[k];
     if (!tracker.Step(&segment)) return std::nullopt;
   }
-  tracker.EndWindow(std::numeric_limits<std::int64_t>::max());
-  tracker.poses().Settle();
+  tracker.End(std::numeric_limits<std::int64_t>::max());
   std::vector<SE3> poses = {SE3()};
   for (const SegmentCloud& segment : segments) {
     const std::optional<SE3> T = tracker.poses().trajectory().At(segment.end_ns);

@@ -30,13 +30,13 @@ void LeavingPoses::Leave(const Window& window, const Matrix6d& covariance, bool 
   const bool is_lost = lost_at_ns_ && window.begin_ns >= *lost_at_ns_;
   const unsigned flags = window.begin_flags | (is_lost ? kFlagLost : 0U);
   // What comes after a pose that waits waits, too.
-  if (waiting_.is_empty() && (!is_in_doubt || trajectory().empty())) {
-    final_.Append({{window.begin_ns, window.T_world_begin, flags}, covariance});
+  if (waiting_.is_empty() && (!is_in_doubt || final_->trajectory().empty())) {
+    final_->Append({{window.begin_ns, window.T_world_begin, flags}, covariance});
     return;
   }
   waiting_.AddPose(window, flags, covariance);
   while (waiting_.Duration_s() > kLongest_s) {
-    final_.Append(waiting_.TakeOldest(marginalization_, *motion_prior_));
+    final_->Append(waiting_.TakeOldest(marginalization_, *motion_prior_));
   }
 }
 
@@ -66,7 +66,7 @@ void LeavingPoses::SmoothBack(const Window& newest, const Estimate& estimate) {
 }
 
 void LeavingPoses::Settle() {
-  for (const LeavingPose& pose : waiting_.TakeAll()) final_.Append(pose);
+  for (const LeavingPose& pose : waiting_.TakeAll()) final_->Append(pose);
 }
 
 }  // namespace trajlo

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <utility>
 
 #include "core/odometry/trajectory/final_poses.h"
 #include "core/odometry/weights/motion_prior.h"
@@ -21,22 +20,10 @@ class LeavingPoses {
   /// Estimates a window from its poses on, as any other; nothing if that fails.
   using Estimate = std::function<std::optional<Window>(Window)>;
 
-  /// `motion_prior` must outlive it.
-  LeavingPoses(const MarginalizationOptions& marginalization, const MotionPrior* motion_prior)
-      : marginalization_(marginalization), motion_prior_(motion_prior) {}
-
-  void OnPose(FinalPoses::Callback callback) { final_.OnPose(std::move(callback)); }
-  /// Whether anybody asks for covariances.
-  bool has_callback() const { return final_.has_callback(); }
-  /// Calls back for all poses that became final since the last time. The callback may throw.
-  void HandOn() { final_.HandOn(); }
-
-  /// See FinalPoses.
-  void Begin(const ControlPose& first) { final_.Begin(first); }
-  void FlagFirst(unsigned flags) { final_.FlagFirst(flags); }
-  void ForgetFirst() { final_.ForgetFirst(); }
-  /// A pose that never was in a window.
-  void Append(const ControlPose& pose) { final_.Append({pose}); }
+  /// `motion_prior`, and the poses that are final, must outlive it.
+  LeavingPoses(const MarginalizationOptions& marginalization, const MotionPrior* motion_prior,
+               FinalPoses* final_poses)
+      : marginalization_(marginalization), motion_prior_(motion_prior), final_(final_poses) {}
 
   /// The first pose of `window` leaves.
   void Leave(const Window& window, const Matrix6d& covariance, bool is_in_doubt);
@@ -56,12 +43,10 @@ class LeavingPoses {
   }
   const std::optional<std::int64_t>& lost_at_ns() const { return lost_at_ns_; }
 
-  const Trajectory& trajectory() const { return final_.trajectory(); }
-
  private:
   const MarginalizationOptions marginalization_;
   const MotionPrior* motion_prior_;
-  FinalPoses final_;
+  FinalPoses* final_;
   IntervalSmoother waiting_;
   std::optional<std::int64_t> lost_at_ns_;
 };

@@ -59,8 +59,7 @@ void Odometry::Finish() {
     if (beginning_) Start();
     if (search_ && search_->HasPoints()) Search(true);
     if (beginning_) Start();
-    tracker_.EndWindow(std::numeric_limits<std::int64_t>::max());
-    tracker_.poses().Settle();
+    tracker_.End(std::numeric_limits<std::int64_t>::max());
     TellAhead();
     is_finished_ = true;
   }
@@ -218,8 +217,7 @@ void Odometry::Resume(const ReturnSweep& sweep) {
 
 /// There was nothing yet that could be found.
 void Odometry::BeginAgain(const ReturnSweep& sweep) {
-  tracker_.EndWindow(sweep.cloud.begin_ns);
-  tracker_.poses().Settle();
+  tracker_.End(sweep.cloud.begin_ns);
   const unsigned flags = trajectory().empty() ? 0U : kFlagGap;
   Begin({search_->TakeSegments(), tracker_.T_world_begin(), flags});
 }

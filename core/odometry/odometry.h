@@ -73,7 +73,7 @@ class Odometry {
   /// What became of scans with odd stamps.
   const TimeReport& time_report() const { return segments_.time_report(); }
   /// When the estimator got lost, if it did (sticky).
-  std::optional<std::int64_t> lost_at_ns() const { return tracker_.poses().lost_at_ns(); }
+  std::optional<std::int64_t> lost_at_ns() const { return tracker_.lost_at_ns(); }
 
  private:
   void Take(SegmentCloud cloud);

@@ -42,7 +42,7 @@ Tracker::Tracker(const OdometryOptions& options, const WindowSolverFactory& make
       motion_prior_(options.motion_prior),
       estimator_(options.registration, options.solver, make_solver, threads),
       window_search_(options.initialization, options.map, options.registration),
-      poses_(options.marginalization, &motion_prior_) {}
+      leaving_(options.marginalization, &motion_prior_, &poses_) {}
 
 void Tracker::BeginMap(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,
                        const Vector6d& velocity, unsigned flags) {
@@ -52,7 +52,7 @@ void Tracker::BeginMap(const std::vector<SegmentCloud>& segments, const std::vec
   const std::int64_t begin_ns = segments.front().begin_ns, end_ns = segments.back().end_ns;
   const ControlPose first = {begin_ns, poses.front(), flags};
   if (end_ns > begin_ns && !poses_.trajectory().empty()) {
-    poses_.Append(first);
+    poses_.Append({first});
   } else if (end_ns > begin_ns && HasMap()) {
     poses_.Begin(first);
   }
@@ -183,7 +183,7 @@ void Tracker::Watch(WindowStatistics* statistics) {
 
 /// What left the window in doubt is estimated once more.
 void Tracker::SmoothBack(WindowStatistics* statistics) {
-  poses_.SmoothBack(window_, [&](Window joined) -> std::optional<Window> {
+  leaving_.SmoothBack(window_, [&](Window joined) -> std::optional<Window> {
     motion_prior_.Apply(&joined);
     const std::vector<SE3> start = joined.Poses();
     WindowStatistics rounds;
@@ -212,7 +212,7 @@ void Tracker::Leave(WindowStatistics* statistics) {
   if (is_of_the_world) EnterMap(oldest.cloud, T_begin, oldest.T_world_end, threads_, &map_);
   map_.RemoveFar(oldest.T_world_end.t);
   statistics->milliseconds_map += watch.Milliseconds();
-  poses_.AddSegment(std::move(oldest));
+  leaving_.AddSegment(std::move(oldest));
 }
 
 /// The pose at the front of the window leaves it. The trajectory begins where the map does: what
@@ -224,7 +224,7 @@ void Tracker::SettleFront() {
   if (poses_.has_callback()) {
     covariance = motion_prior_.covariance_scale() * PoseCovariance(AssembleWindow(window_), 0);
   }
-  poses_.Leave(window_, covariance, was_held() && !doubt_.IsSure());
+  leaving_.Leave(window_, covariance, was_held() && !doubt_.IsSure());
 }
 
 /// A body that was never held has no place that it could lose.
@@ -232,7 +232,7 @@ void Tracker::NoteLoss(WindowStatistics* statistics) {
   if (!was_held()) return;
   if (const auto lost_since_ns = loss_watch_.Update(*statistics)) {
     statistics->flags |= kFlagLost;
-    poses_.Lose(*lost_since_ns);
+    leaving_.Lose(*lost_since_ns);
   }
 }
 
@@ -261,6 +261,11 @@ void Tracker::EndWindow(std::int64_t before_ns) {
   if (window_.begin_ns < before_ns) SettleFront();
 }
 
+void Tracker::End(std::int64_t before_ns) {
+  EndWindow(before_ns);
+  leaving_.Settle();
+}
+
 void Tracker::BeginBehindPause(std::int64_t end_ns) {
   EndWindow(end_ns);
   window_ = MakeWindow(end_ns, window_.T_world_begin);
@@ -282,8 +287,8 @@ LastSeen Tracker::WhereLastSeen() const {
 void Tracker::Resume(const ReturnSweep& found) {
   const SegmentCloud& cloud = found.cloud;
   EndWindow(cloud.begin_ns);
-  if (cloud.end_ns == cloud.begin_ns) poses_.Settle();
-  poses_.AddGap(cloud.begin_ns);
+  if (cloud.end_ns == cloud.begin_ns) leaving_.Settle();
+  leaving_.AddGap(cloud.begin_ns);
   const SE3& T_world_begin = *found.T_world_begin;
   window_ = MakeWindow(cloud.begin_ns, T_world_begin);
   window_.prior = AnchorOfFound(T_world_begin);
@@ -304,9 +309,8 @@ void Tracker::Resume(const ReturnSweep& found) {
 }
 
 void Tracker::Lose(std::int64_t t_ns) {
-  poses_.Lose(support_.supported_until_ns() + 1);
-  EndWindow(t_ns);
-  poses_.Settle();
+  leaving_.Lose(support_.supported_until_ns() + 1);
+  End(t_ns);
   map_ = MapPyramid(options_.map);
   // What was usual there says nothing here, and wrong windows taught wrong motions.
   motion_prior_ = MotionPrior(options_.motion_prior);

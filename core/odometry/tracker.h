@@ -46,8 +46,9 @@ class Tracker {
   /// it had not come. (Points that were moved by the prediction, see Deskewing, stay so.)
   std::optional<WindowStatistics> Step(SegmentCloud* cloud);
 
-  /// All poses of the window before `before_ns` leave, and its segments enter the map.
-  void EndWindow(std::int64_t before_ns);
+  /// All poses of the window before `before_ns` leave, its segments enter the map, and nothing
+  /// waits any more.
+  void End(std::int64_t before_ns);
 
   /// Begins again behind a pause which ends at `end_ns`, at the same pose, before points were held:
   /// what was seen before tells neither where the body is behind it nor how it moved.
@@ -66,8 +67,10 @@ class Tracker {
 
   const SE3& T_world_begin() const { return window_.T_world_begin; }
   const MapPyramid& map() const { return map_; }
-  const LeavingPoses& poses() const { return poses_; }
-  LeavingPoses& poses() { return poses_; }
+  const FinalPoses& poses() const { return poses_; }
+  FinalPoses& poses() { return poses_; }
+  /// When the body was lost for the first time, if it was.
+  const std::optional<std::int64_t>& lost_at_ns() const { return leaving_.lost_at_ns(); }
 
  private:
   std::vector<SE3> Push(SegmentCloud* cloud);
@@ -78,6 +81,7 @@ class Tracker {
   void LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* statistics);
   void Watch(WindowStatistics* statistics);
   void SmoothBack(WindowStatistics* statistics);
+  void EndWindow(std::int64_t before_ns);
   void Leave(WindowStatistics* statistics);
   void SettleFront();
   void NoteLoss(WindowStatistics* statistics);
@@ -97,7 +101,8 @@ class Tracker {
   DoubtWatch doubt_;
   WindowSearch window_search_;
   MeanAttitude attitude_;
-  LeavingPoses poses_;
+  FinalPoses poses_;
+  LeavingPoses leaving_;
 };
 
 }  // namespace trajlo

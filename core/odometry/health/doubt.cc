@@ -10,24 +10,25 @@
 namespace trajlo {
 namespace {
 
-/// Of all points, so many must be on the map before the others extend it.
+/// Of all points, this share must be on the map before the others extend it.
 constexpr double kToExtendMap = 0.5;
-/// And so many before the place is trusted. Where the map has grown at the right place, it is nine
-/// of ten; where it has grown at a wrong one, much of what is seen next is not on it.
+/// And this share before the place is trusted. Where the map has grown at the right place, it is
+/// nine of ten; where it has grown at a wrong one, much of what is seen next is not on it.
 constexpr double kToTrust = 0.75;
-/// Of the usual agreement: nearly all windows at the right place have so much.
+/// Of the usual agreement: nearly all windows at the right place have this share.
 constexpr double kAsUsual = 0.95;
 /// With less, they contradict the map: a car at 30 m/s has 0.9 or more, a slide of 6 m at most 0.8.
 constexpr double kNoContradiction = 0.85;
 /// Usual until more is known: the median at the right place is above 0.85 (InlierWatch).
 constexpr double kAgreementAtFirst = 0.9;
-/// The usual is a mean over about so many windows.
+/// The usual is a mean over about this many windows.
 constexpr double kWindows = 20.0;
 /// What three standard deviations of an unseen motion may be without a doubt: points are still near
 /// their planes. Rotations count at a distance of 2.2 m.
 constexpr double kMoved_m = kOnPlane_m;
 constexpr double kMoved_rad = 0.45 * kOnPlane_m;
-/// A segment that is so many times as long as the one before spans a pause: two scans are missing.
+/// A segment that is this many times as long as the one before spans a pause: two scans are
+/// missing.
 constexpr double kPause = 2.5;
 
 /// All planes face one direction if the others have at most this share of their information.

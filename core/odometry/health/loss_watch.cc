@@ -8,11 +8,11 @@
 namespace trajlo {
 namespace {
 
-/// Lost, when the map grew with what was seen for so long, and still explains few of the points.
+/// Lost, when the map grew with what was seen for this long, and still explains few of the points.
 constexpr std::int64_t kFewPoints_ns = 1'000'000'000;
 /// Or when of all windows of this time ...
 constexpr std::int64_t kSpan_ns = 3'000'000'000;
-/// (at least so many windows: a few scans, far apart, have no share) ...
+/// (at least this many windows: a few scans, far apart, have no share) ...
 constexpr std::size_t kFewestWindows = 20;
 /// ... more than this share did not settle, or were reverted: planes that never settle are not
 /// those of the scene. A fast turn to and fro leaves half of them unsettled, at the right place ...

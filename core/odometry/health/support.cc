@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/odometry/segments/choose_evenly.h"
 #include "core/scans/nanoseconds.h"
 
 namespace trajlo {
@@ -10,7 +11,7 @@ namespace {
 
 /// Fewer points than this hold no pose.
 constexpr double kHandful = 20.0;
-/// About so many are asked.
+/// About this many are asked.
 constexpr std::size_t kAsked = 256;
 /// Of the points that have a plane, this share lies on it, if the pose is right. If it is wrong by
 /// more than a point's distance from its plane may be, a third does.
@@ -23,7 +24,7 @@ constexpr double kBridged_rad = 0.45;
 
 bool IsUnsupported(const Window& window, const Segment& segment) {
   // What most points say, some of them say, too.
-  const std::size_t stride = 1 + segment.points.size() / kAsked;
+  const std::size_t stride = StrideForAbout(kAsked, segment.points.size());
   std::size_t asked_on_plane = 0;
   ForEachPoint(window, segment, stride, [&](const RegistrationPoint&, bool is_on_plane) {
     asked_on_plane += is_on_plane ? 1 : 0;

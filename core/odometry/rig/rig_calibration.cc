@@ -22,7 +22,7 @@ constexpr double kPlace_m = 0.25;
 constexpr double kLeverArm_m = 5.0;
 /// A LiDAR is known when it has seen the map from this many places: after 2.5 m, or half a radian.
 constexpr double kEnoughPlaces = 10.0;
-/// Of the points of a LiDAR, so many must have planes to say anything; ...
+/// Of the points of a LiDAR, this share must have planes to say anything; ...
 constexpr double kSayingSo = 0.02;
 /// ... and of these, this share of the reference's must lie on them. In a simulated
 /// hall, LiDARs at the right place, or found from up to 20 degrees off, have 0.97; those that are

@@ -11,7 +11,7 @@ namespace trajlo {
 namespace {
 
 constexpr double kFewCells = 200.0;
-/// What was seen counts for 1/e after so long.
+/// What was seen counts for 1/e after this time.
 constexpr double kMemory_s = 2.0;
 
 }  // namespace

@@ -38,21 +38,21 @@ constexpr double kClearMotion_m = 0.3;
 /// A motion that is shorter over the first interval blurs nothing.
 constexpr double kAtRest_m = 0.1;
 constexpr double kAtRest_rad = 0.03;
-/// Of the points that have a plane, so many are on it where a constant twist explains the interval:
-/// 0.8 to 0.9 at rest, 0.7 to 0.8 in a street and on a steady walk, 0.1 to 0.6 in a flight with
-/// quick turns, on a motorway, where few points meet again, and in a wood.
+/// Of the points that have a plane, this share is on it where a constant twist explains the
+/// interval: 0.8 to 0.9 at rest, 0.7 to 0.8 in a street and on a steady walk, 0.1 to 0.6 in a
+/// flight with quick turns, on a motorway, where few points meet again, and in a wood.
 constexpr double kSteady = 0.7;
 
-/// Of the points of the second half, so many agree with a motion that is shown. In a sweep that was
-/// seen once, wrong motions had at most 0.44; in two sweeps, right ones have 0.26 to 0.88.
+/// Of the points of the second half, this share agrees with a motion that is shown. In a sweep that
+/// was seen once, wrong motions had at most 0.44; in two sweeps, right ones have 0.26 to 0.88.
 constexpr double kShown = 0.5;
 
-/// A search that comes back to rest has found it, if so many of the points with planes that face
+/// A search that comes back to rest has found it, if this share of the points with planes that face
 /// the weak direction say so: nine of ten at rest, and a quarter of those of a road at 30 m/s.
 constexpr double kSayingSo = 0.5;
 /// A direction with less than this share of the information is held weakly.
 constexpr double kWeakShare = 0.02;
-/// The search along a weak direction has so many starts, between so much forward and backward.
+/// The search along a weak direction has this many starts, up to this speed forward and backward.
 /// Nothing faster is believed.
 constexpr std::size_t kSearchStarts = 16;
 constexpr double kFastest_m_s = 50.0;

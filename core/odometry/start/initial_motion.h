@@ -11,8 +11,8 @@ namespace trajlo {
 
 /// What the points of the second half say of a motion over the interval.
 struct MotionEvidence {
-  int agreeing = 0;    ///< So many lie on planes of the first half, ...
-  int with_plane = 0;  ///< ... of so many that have one.
+  int agreeing = 0;    ///< How many lie on planes of the first half, ...
+  int with_plane = 0;  ///< ... and how many have one.
   /// See MotionHypothesis::VotesAlong: of planes that face the direction which is held weakly, if
   /// one is. Of the others, many agree with any motion along it.
   int votes = 0;
@@ -42,7 +42,7 @@ struct InitializationOptions {
   template <typename Describer>
   void Describe(Describer& d) {
     d(OptionFor::kExperts, "first_interval_s", first_interval_s, Range<double>{1e-3, 10.0},
-      "The motion at the start is estimated from so much of the recording, which also fills the "
+      "The motion at the start is estimated from this much of the recording, which also fills the "
       "map where it moves steadily (paper: 0.3 s).");
     d(OptionFor::kExperts, "estimate_motion", estimate_motion,
       "Estimates the motion during the first interval by registering its second half to its "

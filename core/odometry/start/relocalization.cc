@@ -18,7 +18,7 @@
 namespace trajlo {
 namespace {
 
-/// What tells a place from others takes up so many cells of this size. A hand before the LiDAR
+/// What tells a place from others takes up this many cells of this size. A hand before the LiDAR
 /// takes up half as many, however many points it has, and fits into corners everywhere.
 constexpr double kCell_m = 0.4;
 constexpr std::size_t kFewestCells = 100;

@@ -23,11 +23,11 @@ constexpr double kTurnAcceleration_rad_s2 = 2.0;
 /// What a look may cost.
 constexpr double kMaxRadius_m = 40.0;
 constexpr double kMinTurn_rad = 0.1;
-/// A velocity says nothing after so long.
+/// A velocity says nothing after this time.
 constexpr double kLongestPrediction_s = 5.0;
 /// How far the motion of a sweep may be from a constant twist: points must agree to twice that.
 constexpr double kBend_m = 0.06;
-/// But a sweep has so many segments.
+/// But a sweep has this many segments.
 constexpr double kFewestSegments = 3.0;
 /// Attitudes nearer than this are one.
 constexpr double kSameTilt_rad = 0.05;

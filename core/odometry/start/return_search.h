@@ -35,7 +35,7 @@ struct ReturnSweep {
 /// recording's first interval, then the sweep is looked for wherever the body can be.
 class ReturnSearch {
  public:
-  /// When so much data has come and the place is not found, the estimator is lost.
+  /// When this much data has come and the place is not found, the estimator is lost.
   static constexpr double kMaxSearch_s = 5.0;
 
   /// Segments are `interval_s` long. `attitude` must outlive it.

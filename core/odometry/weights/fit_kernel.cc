@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/window/kernel_axes.h"
 #include "core/scans/median.h"
 #include "manifolds/se3_interpolation.h"
@@ -29,7 +30,7 @@ constexpr std::size_t kFewest = 5;
 Eigen::Matrix3d InformationOfNormals(const Window& window) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Segment& segment : window.segments) {
-    const std::size_t stride = 1 + segment.points.size() / kAskedOfSegment;
+    const std::size_t stride = StrideForAbout(kAskedOfSegment, segment.points.size());
     for (std::size_t i = 0; i < segment.points.size(); i += stride) {
       const RegistrationPoint& point = segment.points[i];
       sum += point.weight * point.normal_world * point.normal_world.transpose();
@@ -65,7 +66,7 @@ std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window
   for (const Segment& segment : window.segments) {
     for (const RegistrationPoint& point : segment.points) ++stride[point.axis];
   }
-  for (std::size_t& count : stride) count = 1 + count / kAskedOfAxis;
+  for (std::size_t& count : stride) count = StrideForAbout(kAskedOfAxis, count);
   std::array<std::size_t, 3> to_pass = {};
   std::array<std::vector<WeighedDistance>, 3> distances;
   for (int k = 0; k < window.size(); ++k) {

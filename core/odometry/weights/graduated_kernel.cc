@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/weights/graduated_kernel.h"
 
+#include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/window/covariance.h"
 #include "core/odometry/window/window_equations.h"
 
@@ -36,7 +37,7 @@ bool GraduatedKernel::Widen(Segment* newest) {
     return J.dot(reach_ * J);
   };
   // What most points say, some of them say, too.
-  const std::size_t stride = 1 + points.size() / kAsked;
+  const std::size_t stride = StrideForAbout(kAsked, points.size());
   std::size_t asked = 0, far = 0;
   for (std::size_t i = 0; i < points.size(); i += stride, ++asked) {
     far += f(points[i]) >= kSmallest ? 1 : 0;

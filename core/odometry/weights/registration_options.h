@@ -8,7 +8,7 @@
 
 namespace trajlo {
 
-/// A kernel that is fitted is at most so many times as wide as RegistrationOptions::kernel_m.
+/// A kernel that is fitted is at most this many times as wide as RegistrationOptions::kernel_m.
 constexpr double kWidestKernel = 3.0;
 
 /// How a point's distance to its plane is weighed.

@@ -4,6 +4,8 @@
 #include <Eigen/Cholesky>
 #include <limits>
 
+#include "factors/square_root.h"
+
 namespace trajlo {
 
 Matrix6d PoseCovariance(const WindowNormalEquations& window, int k) {
@@ -16,7 +18,8 @@ Matrix6d PoseCovariance(const WindowNormalEquations& window, int k) {
   }
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(H);
   const Eigen::VectorXd pivots = H.diagonal().cwiseAbs2();
-  if (factor.info() != Eigen::Success || !(pivots.minCoeff() > 1e-14 * pivots.maxCoeff())) {
+  if (factor.info() != Eigen::Success ||
+      !(pivots.minCoeff() > kNoInformation * pivots.maxCoeff())) {
     return Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   const Matrix6d L = H.bottomRightCorner<6, 6>();

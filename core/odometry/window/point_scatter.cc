@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/odometry/segments/choose_evenly.h"
 #include "core/scans/median.h"
 #include "factors/plane_distances.h"
 
@@ -24,7 +25,7 @@ double PointScatter(const Window& window) {
   for (int k = 0; k < window.size(); ++k) {
     const Segment& segment = window.At(k);
     ForEachDistance(segment.points, SegmentMotion(window.Pose(k), segment.T_world_end),
-                    1 + segment.points.size() / kAsked,
+                    StrideForAbout(kAsked, segment.points.size()),
                     [&](const RegistrationPoint&, double distance_m) {
                       sampled.push_back(std::abs(distance_m));
                     });

@@ -46,38 +46,42 @@ void Leave(int first, int last, LeavingPoses* poses) {
 }
 
 TEST(LeavingPoses, AreFinalAtOnceWithoutADoubt) {
-  LeavingPoses poses({}, &kMotionPrior);
+  FinalPoses final_poses;
+  LeavingPoses poses({}, &kMotionPrior, &final_poses);
   poses.Leave(WindowAt(0), Matrix6d::Identity(), true);  // There is nothing before it.
   poses.Leave(WindowAt(1), Matrix6d::Identity(), false);
-  EXPECT_EQ(poses.trajectory().poses().size(), 2U);
+  EXPECT_EQ(final_poses.trajectory().poses().size(), 2U);
 }
 
 TEST(LeavingPoses, WaitWhileInDoubtAndAreFinalAsTheyAre) {
-  LeavingPoses poses({}, &kMotionPrior);
+  FinalPoses final_poses;
+  LeavingPoses poses({}, &kMotionPrior, &final_poses);
   Leave(0, 4, &poses);
   // Those that follow wait, too.
   poses.Leave(WindowAt(4), Matrix6d::Identity(), false);
-  EXPECT_EQ(poses.trajectory().poses().size(), 1U);
+  EXPECT_EQ(final_poses.trajectory().poses().size(), 1U);
   poses.Settle();
-  ASSERT_EQ(poses.trajectory().poses().size(), 5U);
+  ASSERT_EQ(final_poses.trajectory().poses().size(), 5U);
   for (int k = 0; k < 5; ++k) {
-    const ControlPose& pose = poses.trajectory().poses()[static_cast<std::size_t>(k)];
+    const ControlPose& pose = final_poses.trajectory().poses()[static_cast<std::size_t>(k)];
     EXPECT_EQ(pose.t_ns, k * kStep_ns);
     EXPECT_EQ(pose.T_world_body.t, Pose(k, k).t);
   }
 }
 
 TEST(LeavingPoses, WaitForFiveSecondsAtMost) {
-  LeavingPoses poses({}, &kMotionPrior);
+  FinalPoses final_poses;
+  LeavingPoses poses({}, &kMotionPrior, &final_poses);
   Leave(0, 60, &poses);
   // 51 poses are 5 s.
-  EXPECT_EQ(poses.trajectory().poses().size(), 60U - 51U);
+  EXPECT_EQ(final_poses.trajectory().poses().size(), 60U - 51U);
 }
 
 /// Two estimates are offered; that with a point on a plane is taken.
 TEST(LeavingPoses, AreThoseThatBringMorePointsOntoPlanes) {
   for (const int better : {0, 1}) {
-    LeavingPoses poses({}, &kMotionPrior);
+    FinalPoses final_poses;
+    LeavingPoses poses({}, &kMotionPrior, &final_poses);
     Leave(0, kNewest, &poses);
     int estimates = 0;
     poses.SmoothBack(WindowAt(kNewest), [&](Window joined) -> std::optional<Window> {
@@ -93,39 +97,42 @@ TEST(LeavingPoses, AreThoseThatBringMorePointsOntoPlanes) {
       return joined;
     });
     EXPECT_EQ(estimates, 2);
-    ASSERT_EQ(poses.trajectory().poses().size(), static_cast<std::size_t>(kNewest));
-    EXPECT_EQ(poses.trajectory().poses()[4].T_world_body.t.z(), better);
+    ASSERT_EQ(final_poses.trajectory().poses().size(), static_cast<std::size_t>(kNewest));
+    EXPECT_EQ(final_poses.trajectory().poses()[4].T_world_body.t.z(), better);
   }
 }
 
 TEST(LeavingPoses, StayWhereTheyAreIfNoEstimateSucceeds) {
-  LeavingPoses poses({}, &kMotionPrior);
+  FinalPoses final_poses;
+  LeavingPoses poses({}, &kMotionPrior, &final_poses);
   Leave(0, kNewest, &poses);
   poses.SmoothBack(WindowAt(kNewest), [](const Window&) { return std::nullopt; });
-  ASSERT_EQ(poses.trajectory().poses().size(), static_cast<std::size_t>(kNewest));
+  ASSERT_EQ(final_poses.trajectory().poses().size(), static_cast<std::size_t>(kNewest));
   for (int k = 0; k < kNewest; ++k) {
-    const ControlPose& pose = poses.trajectory().poses()[static_cast<std::size_t>(k)];
+    const ControlPose& pose = final_poses.trajectory().poses()[static_cast<std::size_t>(k)];
     EXPECT_EQ(pose.T_world_body.t, Pose(k, k).t) << k;
   }
 }
 
 TEST(LeavingPoses, AreNotEstimatedAgainIfNoneJumped) {
-  LeavingPoses poses({}, &kMotionPrior);
+  FinalPoses final_poses;
+  LeavingPoses poses({}, &kMotionPrior, &final_poses);
   Leave(0, kJump - 2, &poses);
   poses.SmoothBack(WindowAt(kJump - 2), [](const Window&) {
     ADD_FAILURE() << "nothing to estimate";
     return std::nullopt;
   });
-  EXPECT_EQ(poses.trajectory().poses().size(), static_cast<std::size_t>(kJump - 2));
+  EXPECT_EQ(final_poses.trajectory().poses().size(), static_cast<std::size_t>(kJump - 2));
 }
 
 TEST(LeavingPoses, AreFlaggedFromTheFirstLossOn) {
-  LeavingPoses poses({}, &kMotionPrior);
+  FinalPoses final_poses;
+  LeavingPoses poses({}, &kMotionPrior, &final_poses);
   poses.Lose(2 * kStep_ns);
   poses.Lose(1 * kStep_ns);
   for (int k = 0; k < 4; ++k) poses.Leave(WindowAt(k), Matrix6d::Identity(), false);
   for (int k = 0; k < 4; ++k) {
-    const unsigned flags = poses.trajectory().poses()[static_cast<std::size_t>(k)].flags;
+    const unsigned flags = final_poses.trajectory().poses()[static_cast<std::size_t>(k)].flags;
     EXPECT_EQ(flags, k < 2 ? 0U : kFlagLost) << k;
   }
 }
