@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/odometry/solvers/ceres_steps.h"
 
+#include <ceres/types.h>
+
 #include <algorithm>
 #include <cstddef>
 
@@ -53,7 +55,9 @@ SolveSummary SolveByCeres(const SolverOptions& options, ceres::Solver::Options c
   StopAfterSteps stop(options, poses);
   ceres_options.callbacks = {&stop};
   if (poses->size() > kLongWindow &&
-      ceres_options.linear_solver_type == ceres::DENSE_NORMAL_CHOLESKY) {
+      ceres_options.linear_solver_type == ceres::DENSE_NORMAL_CHOLESKY &&
+      ceres::IsSparseLinearAlgebraLibraryTypeAvailable(
+          ceres_options.sparse_linear_algebra_library_type)) {
     ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   }
   ceres::Solver::Summary ceres_summary;
