@@ -20,7 +20,7 @@ class LeavingPoses {
   /// Estimates a window from its poses on, as any other; nothing if that fails.
   using Estimate = std::function<std::optional<Window>(Window)>;
 
-  /// `motion_prior`, and the poses that are final, must outlive it.
+  /// `motion_prior` and `final_poses` must outlive it.
   LeavingPoses(const MarginalizationOptions& marginalization, const MotionPrior* motion_prior,
                FinalPoses* final_poses)
       : marginalization_(marginalization), motion_prior_(motion_prior), final_(final_poses) {}

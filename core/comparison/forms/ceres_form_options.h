@@ -5,7 +5,13 @@
 
 namespace trajlo {
 
-enum class LinearSolverKind { kDenseNormalCholesky, kDenseQr, kSparseNormalCholesky, kCgnr };
+enum class LinearSolverKind {
+  kByLength,  ///< A dense Cholesky factorisation, or a sparse one in long windows.
+  kDenseNormalCholesky,
+  kDenseQr,
+  kSparseNormalCholesky,
+  kCgnr,
+};
 enum class TrustRegionKind { kLevenbergMarquardt, kDogleg };
 
 /// How the registration of a segment enters Ceres.
@@ -20,7 +26,7 @@ enum class RegistrationForm {
 /// Other ways to let Ceres solve a window than that of CeresSolver, which the defaults stand for.
 struct CeresFormOptions {
   RegistrationForm registration = RegistrationForm::kPrepared;
-  LinearSolverKind linear_solver = LinearSolverKind::kDenseNormalCholesky;
+  LinearSolverKind linear_solver = LinearSolverKind::kByLength;
   TrustRegionKind trust_region = TrustRegionKind::kLevenbergMarquardt;
   double initial_trust_region_radius = 1e16;
 
@@ -37,11 +43,13 @@ struct CeresFormOptions {
       "analytic or automatic Jacobians. Only the default keeps linearisations within "
       "expert.solver.step_tolerance_m.");
     d(OptionFor::kExperts, "linear_solver", linear_solver,
-      Names<LinearSolverKind>{{"dense_normal_cholesky", LinearSolverKind::kDenseNormalCholesky},
+      Names<LinearSolverKind>{{"by_length", LinearSolverKind::kByLength},
+                              {"dense_normal_cholesky", LinearSolverKind::kDenseNormalCholesky},
                               {"dense_qr", LinearSolverKind::kDenseQr},
                               {"sparse_normal_cholesky", LinearSolverKind::kSparseNormalCholesky},
                               {"cgnr", LinearSolverKind::kCgnr}},
-      "How Ceres solves the normal equations.");
+      "How Ceres solves the normal equations; by_length: by a dense Cholesky factorisation, or a "
+      "sparse one in windows of more than 16 poses.");
     d(OptionFor::kExperts, "trust_region", trust_region,
       Names<TrustRegionKind>{{"levenberg_marquardt", TrustRegionKind::kLevenbergMarquardt},
                              {"dogleg", TrustRegionKind::kDogleg}},

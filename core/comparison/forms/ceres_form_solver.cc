@@ -19,23 +19,29 @@
 namespace trajlo {
 namespace {
 
-ceres::LinearSolverType LinearSolverOf(LinearSolverKind kind) {
+void SetLinearSolver(LinearSolverKind kind, ceres::Solver::Options* options) {
   switch (kind) {
+    case LinearSolverKind::kByLength:
+      return;  // As it is.
     case LinearSolverKind::kDenseNormalCholesky:
-      return ceres::DENSE_NORMAL_CHOLESKY;
+      options->linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+      return;
     case LinearSolverKind::kDenseQr:
-      return ceres::DENSE_QR;
+      options->linear_solver_type = ceres::DENSE_QR;
+      return;
     case LinearSolverKind::kSparseNormalCholesky:
-      return ceres::SPARSE_NORMAL_CHOLESKY;
+      options->linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+      return;
     case LinearSolverKind::kCgnr:
-      return ceres::CGNR;
+      options->linear_solver_type = ceres::CGNR;
+      return;
   }
-  return ceres::DENSE_NORMAL_CHOLESKY;
 }
 
-ceres::Solver::Options MakeSolverOptions(const CeresFormOptions& form, int steps) {
-  ceres::Solver::Options options = UndampedSolverOptions(steps);
-  options.linear_solver_type = LinearSolverOf(form.linear_solver);
+ceres::Solver::Options MakeSolverOptions(const CeresFormOptions& form, int steps,
+                                         std::size_t poses) {
+  ceres::Solver::Options options = UndampedSolverOptions(steps, poses);
+  SetLinearSolver(form.linear_solver, &options);
   options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
   options.trust_region_strategy_type =
       form.trust_region == TrustRegionKind::kDogleg ? ceres::DOGLEG : ceres::LEVENBERG_MARQUARDT;
@@ -102,8 +108,8 @@ SolveSummary CeresFormSolver::Solve(Window* window) {
   }
   blocks.AddPrior(window->prior);
   const SolveSummary summary =
-      SolveByCeres(options_, MakeSolverOptions(form_, options_.iterations_per_round), &poses,
-                   blocks.problem(), window);
+      SolveByCeres(options_, MakeSolverOptions(form_, options_.iterations_per_round, poses.size()),
+                   &poses, blocks.problem(), window);
   if (summary.finite) prepare.Finish();
   return summary;
 }
@@ -114,7 +120,11 @@ WindowSolverFactory MakeSolverFactory(const CeresFormOptions& form) {
         if (options.kind == SolverKind::kGaussNewton) return MakeWindowSolver(options, threads);
         if (form.registration == RegistrationForm::kPrepared) {
           return std::make_unique<CeresSolver>(
-              options, MakeSolverOptions(form, options.iterations_per_round), threads);
+              options,
+              [form, steps = options.iterations_per_round](std::size_t poses) {
+                return MakeSolverOptions(form, steps, poses);
+              },
+              threads);
         }
         return std::make_unique<CeresFormSolver>(form, options, threads);
       };

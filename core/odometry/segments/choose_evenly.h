@@ -16,7 +16,7 @@ std::vector<T> ChooseEvenly(const std::vector<T>& all, std::size_t count) {
   return chosen;
 }
 
-/// Every how-manieth of `count` elements to look at, evenly, to see `about` of them at most.
+/// The stride that looks at no more than `about` of `count` elements, and at half as many at least.
 inline std::size_t StrideForAbout(std::size_t about, std::size_t count) {
   return 1 + count / about;
 }

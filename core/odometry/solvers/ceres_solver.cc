@@ -61,8 +61,13 @@ class CeresSolver::LivingProblem {
 };
 
 CeresSolver::CeresSolver(const SolverOptions& options, ThreadPool* threads)
-    : CeresSolver(options, UndampedSolverOptions(options.iterations_per_round), threads) {}
-CeresSolver::CeresSolver(const SolverOptions& options, ceres::Solver::Options ceres_options,
+    : CeresSolver(
+          options,
+          [steps = options.iterations_per_round](std::size_t poses) {
+            return UndampedSolverOptions(steps, poses);
+          },
+          threads) {}
+CeresSolver::CeresSolver(const SolverOptions& options, CeresOptions ceres_options,
                          ThreadPool* threads)
     : options_(options),
       ceres_options_(std::move(ceres_options)),
@@ -73,7 +78,7 @@ SolveSummary CeresSolver::Solve(Window* window) {
   if (!problem_ || !problem_->Fits(*window)) {
     problem_ = std::make_unique<LivingProblem>(*window, &evaluator_);
   }
-  return problem_->Solve(options_, ceres_options_, window);
+  return problem_->Solve(options_, ceres_options_(window->segments.size() + 1), window);
 }
 
 }  // namespace trajlo

@@ -3,6 +3,8 @@
 
 #include <ceres/solver.h>
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 
 #include "core/odometry/solvers/window_solver.h"
@@ -19,10 +21,12 @@ namespace trajlo {
 /// raises the cost.
 class CeresSolver final : public WindowSolver {
  public:
+  /// What Ceres is given for a window with this number of poses.
+  using CeresOptions = std::function<ceres::Solver::Options(std::size_t poses)>;
+
   CeresSolver(const SolverOptions& options, ThreadPool* threads);
   /// With other options of Ceres, for comparison.
-  CeresSolver(const SolverOptions& options, ceres::Solver::Options ceres_options,
-              ThreadPool* threads);
+  CeresSolver(const SolverOptions& options, CeresOptions ceres_options, ThreadPool* threads);
   ~CeresSolver() override;
 
   SolveSummary Solve(Window* window) override;
@@ -30,7 +34,7 @@ class CeresSolver final : public WindowSolver {
  private:
   class LivingProblem;
   SolverOptions options_;
-  ceres::Solver::Options ceres_options_;
+  CeresOptions ceres_options_;
   RegistrationEvaluator evaluator_;
   std::unique_ptr<LivingProblem> problem_;
 };

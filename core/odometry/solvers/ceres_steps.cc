@@ -4,15 +4,14 @@
 #include <ceres/types.h>
 
 #include <algorithm>
-#include <cstddef>
+
+#include "core/odometry/window/window_equations.h"
 
 namespace trajlo {
 namespace {
 
 /// From no damping to a step that is short enough, Levenberg-Marquardt needs about this many tries.
 constexpr int kMostRejectedSteps = 12;
-/// The Hessian of a longer window is mostly zeros: only neighbours share a term.
-constexpr std::size_t kLongWindow = 16;
 
 }  // namespace
 
@@ -32,9 +31,12 @@ ceres::CallbackReturnType StopAfterSteps::operator()(const ceres::IterationSumma
   return is_done ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
 }
 
-ceres::Solver::Options UndampedSolverOptions(int steps) {
+ceres::Solver::Options UndampedSolverOptions(int steps, std::size_t poses) {
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  const bool is_sparse = poses > kLongWindow && ceres::IsSparseLinearAlgebraLibraryTypeAvailable(
+                                                    options.sparse_linear_algebra_library_type);
+  options.linear_solver_type =
+      is_sparse ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_NORMAL_CHOLESKY;
   options.initial_trust_region_radius = 1e16;
   options.max_num_iterations = steps + kMostRejectedSteps;
   // Below these Ceres computes a step and does not take it; the rounds end by the size of steps.
@@ -54,12 +56,6 @@ SolveSummary SolveByCeres(const SolverOptions& options, ceres::Solver::Options c
   std::copy(start.begin(), start.end(), poses->begin());
   StopAfterSteps stop(options, poses);
   ceres_options.callbacks = {&stop};
-  if (poses->size() > kLongWindow &&
-      ceres_options.linear_solver_type == ceres::DENSE_NORMAL_CHOLESKY &&
-      ceres::IsSparseLinearAlgebraLibraryTypeAvailable(
-          ceres_options.sparse_linear_algebra_library_type)) {
-    ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  }
   ceres::Solver::Summary ceres_summary;
   ceres::Solve(ceres_options, problem, &ceres_summary);
 

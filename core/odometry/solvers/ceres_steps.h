@@ -5,6 +5,7 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include <cstddef>
 #include <vector>
 
 #include "core/odometry/solvers/window_solver.h"
@@ -34,8 +35,8 @@ class StopAfterSteps final : public ceres::IterationCallback {
 };
 
 /// Levenberg-Marquardt that begins without damping, so that its steps are those of Gauss-Newton
-/// until one raises the cost.
-ceres::Solver::Options UndampedSolverOptions(int steps);
+/// until one raises the cost. For a window of `poses`: dense, or sparse if it is long.
+ceres::Solver::Options UndampedSolverOptions(int steps, std::size_t poses);
 
 /// Solves `problem` with `poses`, its parameter blocks, from the poses of the window to which it
 /// belongs, and puts these to the solution if it is one.

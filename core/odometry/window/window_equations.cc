@@ -7,12 +7,6 @@
 #include <limits>
 
 namespace trajlo {
-namespace {
-
-/// Of more unknowns H is mostly zeros: only neighbours share a term.
-constexpr Eigen::Index kLongWindow = 96;
-
-}  // namespace
 
 void WindowNormalEquations::Add(int first, const Eigen::Ref<const Eigen::MatrixXd>& J,
                                 const Eigen::Ref<const Eigen::VectorXd>& r) {
@@ -77,7 +71,7 @@ WindowNormalEquations AssembleWindow(const Window& window) {
 
 Eigen::VectorXd SolveNormalEquations(const WindowNormalEquations& equations) {
   const Eigen::MatrixXd& H = equations.H;
-  if (H.cols() <= kLongWindow) return -H.ldlt().solve(equations.g);
+  if (static_cast<std::size_t>(H.cols()) <= 6 * kLongWindow) return -H.ldlt().solve(equations.g);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(H.sparseView());
   if (factor.info() != Eigen::Success) {
     return Eigen::VectorXd::Constant(H.cols(), std::numeric_limits<double>::quiet_NaN());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "core/odometry/window/window.h"
@@ -27,6 +28,10 @@ struct LinearizedMotion {
   Eigen::Matrix<double, 6, 18> jacobian;  ///< 6 columns a pose.
 };
 LinearizedMotion LinearizeMotion(const Window& window, const std::vector<SE3>& poses, int k);
+
+/// The Hessian of a window with more poses than this is mostly zeros, as only neighbours share a
+/// term: a sparse factorisation pays.
+constexpr std::size_t kLongWindow = 16;
 
 /// The normal equations of a window: H xi = -g with xi the stacked right perturbations of its
 /// poses.

@@ -37,8 +37,9 @@ std::vector<SE3> SolveByForm(const CeresFormOptions& form, unsigned seed) {
 TEST(CeresForms, EveryLinearSolverAndTrustRegionEndsAtTheOptimum) {
   const auto expected = SolveByGaussNewton(11);
   for (LinearSolverKind linear :
-       {LinearSolverKind::kDenseNormalCholesky, LinearSolverKind::kDenseQr,
-        LinearSolverKind::kSparseNormalCholesky, LinearSolverKind::kCgnr}) {
+       {LinearSolverKind::kByLength, LinearSolverKind::kDenseNormalCholesky,
+        LinearSolverKind::kDenseQr, LinearSolverKind::kSparseNormalCholesky,
+        LinearSolverKind::kCgnr}) {
     for (TrustRegionKind region :
          {TrustRegionKind::kLevenbergMarquardt, TrustRegionKind::kDogleg}) {
       if (linear == LinearSolverKind::kCgnr && region == TrustRegionKind::kDogleg) continue;

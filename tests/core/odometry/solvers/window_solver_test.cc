@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "core/odometry/solvers/ceres_steps.h"
 #include "core/odometry/window/marginalize.h"
 #include "core/odometry/window/registration_evaluator.h"
 #include "tests/support/test_window.h"
@@ -51,6 +52,11 @@ TEST(WindowSolver, CeresAndGaussNewtonEndAtTheSameOptimum) {
       EXPECT_LT(LargestDifference(Solve(Converging(SolverKind::kCeres), window), expected), 1e-7);
     }
   }
+}
+
+TEST(WindowSolver, CeresIsSparseInLongWindowsOnly) {
+  EXPECT_EQ(UndampedSolverOptions(1, 5).linear_solver_type, ceres::DENSE_NORMAL_CHOLESKY);
+  EXPECT_EQ(UndampedSolverOptions(1, 51).linear_solver_type, ceres::SPARSE_NORMAL_CHOLESKY);
 }
 
 /// Both use a sparse factorisation there.
