@@ -141,8 +141,8 @@ std::string LongName(std::string_view name) {
 }
 
 bool IsList(const std::string& flag) {
-  static const std::vector<std::string> lists = {"config", "input", "names", "only",
-                                                 "rpe",    "set",   "topics"};
+  static const std::vector<std::string> lists = {"config", "input", "inspect", "names",
+                                                 "only",   "rpe",   "set",     "topics"};
   return std::find(lists.begin(), lists.end(), flag) != lists.end();
 }
 

@@ -2,7 +2,9 @@
 // LiDAR odometry: a recording goes in, a trajectory and a map come out. See --help.
 #include <gflags/gflags.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,9 @@
 #include "apps/load_config.h"
 #include "apps/require_extrinsics.h"
 #include "apps/run/run_job.h"
+#include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
+#include "core/io/number_text.h"
 
 DEFINE_string(input, "", "the recording: bag, capture or folder of scans; several with commas");
 DEFINE_string(output, "", "the folder to write");
@@ -24,6 +28,7 @@ DEFINE_string(solver, "", "ceres or gauss_newton");
 DEFINE_int32(threads, -1, "0 for all cores; the result does not depend on it");
 DEFINE_double(rate, 0.0, "poses per second in trajectory.tum; 0 writes the control poses");
 DEFINE_string(at, "", "one pose per scan: scan-end or scan-mid");
+DEFINE_string(inspect, "", "windows whose factor graphs are written: 431,500-509");
 DEFINE_bool(covariance, false, "write covariance.csv");
 DEFINE_bool(view, true, "write view.ply, a thinned choice of the scans for the 3-D view");
 DEFINE_bool(overwrite, false, "replace an earlier result in the output folder");
@@ -63,6 +68,9 @@ constexpr char kHelp[] = R"(LiDAR odometry: a recording goes in, a trajectory an
       motion-corrected scans without point times
   trajlo_run front rear -o result --config rig.yaml
       several LiDARs; sensor.T_body_lidar in rig.yaml has the pose of each on the body
+  trajlo_run flight.bag -o again --inspect 431
+      the factor graph of window 431 of windows.csv: every residual, weight, prior and H, in
+      again/windows/000431.json and its points in 000431.ply; scripts/draw_window.py draws it
   trajlo_run --show_config
       every option with its value and its meaning (with --config and --set: as these set it)
 
@@ -77,6 +85,7 @@ Flags:
   --rate=HZ                     trajectory.tum at even times
   --at=scan-end|scan-mid        trajectory.tum with one pose per scan
   --covariance                  write covariance.csv: a 6x6 covariance for every control pose
+  --inspect=N,FIRST-LAST        write the factor graphs of these windows, counted as in windows.csv
   --noview                      write no view.ply
   --overwrite                   replace an earlier result
   --quiet                       print warnings and errors only
@@ -117,6 +126,26 @@ trajlo::SamplingOptions SamplingFromFlags() {
   return {};
 }
 
+/// "431,500-509"
+std::set<std::int64_t> WindowsFromFlags() {
+  // Each is a file of a megabyte: more than that is a slip.
+  constexpr std::int64_t kMost = 10'000;
+  std::set<std::int64_t> windows;
+  for (const std::string& part : trajlo::SplitAtCommas(FLAGS_inspect)) {
+    const std::size_t dash = part.find('-');
+    std::int64_t first = 0, last = 0;
+    if (!trajlo::ParseNumber(part.substr(0, dash), &first) ||
+        !trajlo::ParseNumber(dash == std::string::npos ? part : part.substr(dash + 1), &last) ||
+        first < 0 || last < first || last - first >= kMost) {
+      throw UsageError(
+          "--inspect: must be numbers of windows, or ranges such as 500-509 of at most " +
+          std::to_string(kMost) + ", found '" + part + "'");
+    }
+    for (std::int64_t index = first; index <= last; ++index) windows.insert(index);
+  }
+  return windows;
+}
+
 trajlo::RunRequest RequestFromFlags(const trajlo::CommandLine& line) {
   trajlo::RunRequest request;
   request.command_line = line.words;
@@ -129,6 +158,7 @@ trajlo::RunRequest RequestFromFlags(const trajlo::CommandLine& line) {
   request.output = FLAGS_output;
   request.covariance = FLAGS_covariance;
   request.view = FLAGS_view;
+  request.inspected = WindowsFromFlags();
   request.overwrite = FLAGS_overwrite;
   request.quiet = FLAGS_quiet;
   return request;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/comparison/forms/ceres_form_solver.h"
+#include "core/graph/graph_files.h"
 #include "core/io/atomic_file.h"
 #include "core/io/format_text.h"
 #include "core/io/point_cloud_writer.h"
@@ -49,6 +50,13 @@ Run::Run(const RunRequest& request, const ResultFolder& folder, ScanSource* reco
     summary_->windows.Add(window);
     inlier_share_ = window.InlierShare();
   });
+  if (!request.inspected.empty()) {
+    odometry_.OnSolvedWindow(
+        [this](std::int64_t index) { return request_.inspected.count(index) > 0; },
+        [this](std::int64_t index, const Window& window) {
+          WriteGraphFiles(folder_.graphs(), index, window);
+        });
+  }
   if (request.view) view_.emplace(request.config.odometry.segmenter);
   if (!request.covariance) return;
   covariance_.emplace(folder.covariance(), IfExists::kReplace);
@@ -160,6 +168,11 @@ void Run::Summarise() const {
   s.rig = Rig();
   for (const std::string& warning : RigWarnings(s.rig)) s.warnings.push_back(warning);
   for (const std::string& warning : FlagWarnings(s)) s.warnings.push_back(warning);
+  if (!request_.inspected.empty() && *request_.inspected.rbegin() >= s.windows.windows) {
+    s.warnings.push_back("--inspect: there is no window " +
+                         std::to_string(*request_.inspected.rbegin()) + "; they are counted from " +
+                         "0, and there are " + std::to_string(s.windows.windows));
+  }
   s.estimation_s = 1e-3 * processing_.total_ms();
   if (s.end_ns) {
     const ProcessingTime::Quantiles quantiles = processing_.PerSecondOfData(*s.end_ns);

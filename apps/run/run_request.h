@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,9 @@ struct RunRequest {
   std::string output;
   RunConfig config;
   SamplingOptions sampling;
-  bool covariance = false;  ///< Write covariance.csv, too.
-  bool view = true;         ///< Write view.ply, too.
+  bool covariance = false;           ///< Write covariance.csv, too.
+  bool view = true;                  ///< Write view.ply, too.
+  std::set<std::int64_t> inspected;  ///< Windows whose factor graphs are written, too.
   bool overwrite = false;
   bool quiet = false;  ///< Only warnings and errors are printed.
   std::vector<std::string> command_line;

@@ -69,9 +69,10 @@ void Odometry::Finish() {
 /// Calls back for all that is new, when nothing is half done: a callback may throw.
 void Odometry::HandOn() {
   while (!windows_to_hand_on_.empty()) {
-    const WindowStatistics statistics = windows_to_hand_on_.front();
+    const NewWindow window = std::move(windows_to_hand_on_.front());
     windows_to_hand_on_.pop_front();
-    on_window_(statistics);
+    if (on_window_) on_window_(window.statistics);
+    if (window.solved) on_solved_(window.statistics.index, *window.solved);
   }
   tracker_.poses().HandOn();
 }
@@ -174,7 +175,9 @@ void Odometry::BeginInMotion(const std::vector<SegmentCloud>& segments, std::siz
 
 /// One step of the method, in Tracker::Step; or the body is lost from view, and looked for.
 void Odometry::Step(SegmentCloud cloud) {
-  std::optional<WindowStatistics> statistics = tracker_.Step(&cloud);
+  std::optional<Window> solved;
+  const bool is_wanted = wants_solved_ && wants_solved_(windows_);
+  std::optional<WindowStatistics> statistics = tracker_.Step(&cloud, is_wanted ? &solved : nullptr);
   if (!statistics) {
     BeginSearch();
     Take(std::move(cloud));
@@ -182,7 +185,7 @@ void Odometry::Step(SegmentCloud cloud) {
   }
   statistics->index = windows_++;
   statistics->milliseconds_segment = segments_.TakeMilliseconds();
-  if (on_window_) windows_to_hand_on_.push_back(*statistics);
+  windows_to_hand_on_.push_back({*statistics, std::move(solved)});
 }
 
 /// From the end of the window on, nobody knows where the body is.

@@ -56,6 +56,14 @@ class Odometry {
   void OnWindow(std::function<void(const WindowStatistics&)> callback) {
     on_window_ = std::move(callback);
   }
+  /// Called after that with the windows whose index `wants` takes: all factors, as they were
+  /// solved, before the oldest segment leaves. See core/graph. Copying a window takes about a
+  /// millisecond.
+  void OnSolvedWindow(std::function<bool(std::int64_t index)> wants,
+                      std::function<void(std::int64_t index, const Window&)> callback) {
+    wants_solved_ = std::move(wants);
+    on_solved_ = std::move(callback);
+  }
   /// Called likewise for every control pose when it is final, with the covariance of its right
   /// perturbation [rho; theta] (m², m rad, rad²): that of the pose relative to the map in view, by
   /// its last window, calibrated. A pose is final when it leaves the window, or up to 5 s later if
@@ -76,6 +84,12 @@ class Odometry {
   std::optional<std::int64_t> lost_at_ns() const { return tracker_.lost_at_ns(); }
 
  private:
+  /// What a callback is called for.
+  struct NewWindow {
+    WindowStatistics statistics;
+    std::optional<Window> solved;
+  };
+
   void Take(SegmentCloud cloud);
   void TellAhead();
   void HandOn();
@@ -104,7 +118,9 @@ class Odometry {
   std::optional<ReturnSearch> search_;                ///< While nobody knows where the body is.
   bool is_finishing_ = false, is_finished_ = false;
   std::function<void(const WindowStatistics&)> on_window_;
-  std::deque<WindowStatistics> windows_to_hand_on_;
+  std::function<bool(std::int64_t)> wants_solved_;
+  std::function<void(std::int64_t, const Window&)> on_solved_;
+  std::deque<NewWindow> windows_to_hand_on_;
   std::int64_t windows_ = 0;
 };
 

@@ -64,7 +64,7 @@ void Tracker::BeginMap(const std::vector<SegmentCloud>& segments, const std::vec
 
 bool Tracker::HasMap() const { return was_held() || map_.finest().size() >= kFewestToBegin; }
 
-std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
+std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud, std::optional<Window>* solved) {
   const std::vector<SE3> predicted = Push(cloud);
 
   WindowStatistics statistics;
@@ -83,6 +83,7 @@ std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud) {
   BelieveOrRevert(predicted, statistics);
   LearnAndJudge(predicted.back(), &statistics);
   Watch(&statistics);
+  if (solved != nullptr) *solved = window_;
   if (doubt_.IsSure()) SmoothBack(&statistics);
   const int to_keep = SegmentsToKeep(window_.segments.back(), options_.window.segments);
   while (window_.size() > to_keep) Leave(&statistics);

@@ -43,8 +43,10 @@ class Tracker {
   /// One step of the method: a segment comes, a window is estimated, the oldest segment leaves.
   /// Returns what happened; nothing where the points do not hold the body, and did not for so long
   /// that the motion prior does not tell where it is. Then `cloud` is given back, and all is as if
-  /// it had not come. (Points that were moved by the prediction, see Deskewing, stay so.)
-  std::optional<WindowStatistics> Step(SegmentCloud* cloud);
+  /// it had not come. (Points that were moved by the prediction, see Deskewing, stay so.) `solved`
+  /// gets the window as it was solved, before its oldest segment leaves, if that is asked for.
+  std::optional<WindowStatistics> Step(SegmentCloud* cloud,
+                                       std::optional<Window>* solved = nullptr);
 
   /// All poses of the window before `before_ns` leave, its segments enter the map, and nothing
   /// waits any more.

@@ -52,6 +52,19 @@ void AddFigures(const fs::path& folder, const Names& names, std::vector<fs::path
   }
 }
 
+/// Files with the names that trajlo_run --inspect and draw_window.py give: "000431.json".
+void AddGraphs(const fs::path& folder, std::vector<fs::path>* files) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string stem = entry.path().stem().string();
+    const bool is_number = stem.size() >= 6 && stem.find_first_not_of("0123456789") == stem.npos;
+    const std::string kind = entry.path().extension().string();
+    if (is_number && (kind == ".json" || kind == ".ply" || kind == ".html")) {
+      files->push_back(entry.path());
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<fs::path> EvaluationFiles(const fs::path& folder) {
@@ -75,9 +88,11 @@ void RemoveWhatIsAboutResult(const fs::path& folder) {
   if (ReadEstimates(folder).is_array()) files = EvaluationFiles(folder);
   AddFigures(folder, kFigures, &files);
   files.push_back(folder / "run.html");
+  AddGraphs(folder / "windows", &files);
   // The summary last: while a file is left, it says what the others are.
   for (auto file = files.rbegin(); file != files.rend(); ++file) Remove(*file);
   RemoveIfEmpty(folder / "figures");
+  RemoveIfEmpty(folder / "windows");
 }
 
 void RemoveComparison(const fs::path& folder) {

@@ -11,8 +11,8 @@ namespace trajlo {
 std::vector<std::filesystem::path> EvaluationFiles(const std::filesystem::path& folder);
 
 /// Removes what trajlo's other commands and scripts have written into the folder of a result about
-/// it: the page and its figures, and an evaluation. Leaves all other files, folders that hold any,
-/// and links. Throws OutputError.
+/// it: the page and its figures, an evaluation, and the factor graphs of windows. Leaves all other
+/// files, folders that hold any, and links. Throws OutputError.
 void RemoveWhatIsAboutResult(const std::filesystem::path& folder);
 
 /// Removes an earlier comparison from its folder: what trajlo_compare_solvers and

@@ -35,6 +35,8 @@ class ResultFolder {
   std::filesystem::path covariance() const { return path_ / "covariance.csv"; }
   /// Where the LiDARs were found to be, if there are several.
   std::filesystem::path rig() const { return path_ / "rig.yaml"; }
+  /// The factor graphs of windows, if they were asked for: see core/graph.
+  std::filesystem::path graphs() const { return path_ / "windows"; }
   std::filesystem::path config() const { return path_ / "config.yaml"; }
   std::filesystem::path summary() const { return path_ / "run.json"; }
 

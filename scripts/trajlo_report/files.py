@@ -77,8 +77,12 @@ def read_poses(path):
     return times_ns / 1e9, positions, quaternions
 
 
+PLY_KINDS = {"float": "<f4", "double": "<f8"}
+
+
 def read_ply_columns(path):
-    """The float properties of the vertices of a binary little-endian PLY: {name: values}."""
+    """The properties of the vertices of a binary little-endian PLY, floats or doubles: {name:
+    values}."""
     data = pathlib.Path(path).read_bytes()
     head, _, _ = data.partition(b"end_header\n")
     lines = head.decode("ascii", errors="replace").splitlines()
@@ -86,14 +90,14 @@ def read_ply_columns(path):
         raise ReportError(f"{path} is not a binary little-endian PLY")
     counts = [int(line.split()[2]) for line in lines if line.startswith("element ")]
     properties = [line.split()[1:] for line in lines if line.startswith("property ")]
-    if len(counts) != 1 or any(kind != "float" for kind, *_ in properties):
+    if len(counts) != 1 or any(kind not in PLY_KINDS for kind, *_ in properties):
         raise ReportError(f"{path} has more than vertices of floats, which is not read")
-    count, names = counts[0], [name for _, name in properties]
+    row = np.dtype([(name, PLY_KINDS[kind]) for kind, name in properties])
     begin = len(head) + len(b"end_header\n")
-    if len(data) < begin + 4 * count * len(names):
-        raise ReportError(f"{path} ends early: {count} points were announced")
-    values = np.frombuffer(data, "<f4", count * len(names), begin).reshape(count, len(names))
-    return dict(zip(names, values.T))
+    if len(data) < begin + counts[0] * row.itemsize:
+        raise ReportError(f"{path} ends early: {counts[0]} points were announced")
+    values = np.frombuffer(data, row, counts[0], begin)
+    return {name: values[name] for name in row.names}
 
 
 def read_ply(path):

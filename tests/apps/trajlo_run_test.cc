@@ -82,6 +82,29 @@ TEST_F(TrajloRunTest, WithoutAViewTheResultIsTheSameAndAnEarlierOneGoes) {
   EXPECT_FALSE(std::filesystem::exists(Result("view.ply")));
 }
 
+TEST_F(TrajloRunTest, InspectWritesTheFactorGraphsOfWindowsAndAnEarlierOneGoes) {
+  RoomRecording().Write(input());
+  ASSERT_EQ(Run().exit_code, 0);
+  const std::string without = ReadFile(Result("trajectory.tum"));
+  EXPECT_FALSE(std::filesystem::exists(Result("windows")));
+  ASSERT_EQ(Run({"--inspect=7", "--inspect=9-11", "--overwrite"}).exit_code, 0);
+  EXPECT_EQ(ReadFile(Result("trajectory.tum")), without);
+  const std::vector<std::string> names = {"000007", "000009", "000010", "000011"};
+  for (const std::string& name : names) {
+    const auto graph = nlohmann::json::parse(ReadFile(Result("windows/" + name + ".json")));
+    EXPECT_EQ(graph["index"].get<int>(), std::stoi(name));
+    EXPECT_GT(graph["cost"]["registration"].get<double>(), 0.0);
+    EXPECT_EQ(graph["H"].size(), 6 * graph["poses"].size());
+    EXPECT_THAT(ReadFile(Result("windows/" + name + ".ply")), HasSubstr("double kernel_weight"));
+  }
+  WriteFile(Result("windows/000001.txt"), "somebody's");
+  const Outcome beyond = Run({"--inspect=100000", "--overwrite"});
+  EXPECT_EQ(beyond.exit_code, 0);
+  EXPECT_THAT(beyond.err, HasSubstr("there is no window 100000"));
+  EXPECT_FALSE(std::filesystem::exists(Result("windows/000007.json")));
+  EXPECT_TRUE(std::filesystem::exists(Result("windows/000001.txt")));
+}
+
 TEST_F(TrajloRunTest, TheWrittenConfigRepeatsTheRun) {
   RoomRecording().Write(input());
   ASSERT_EQ(

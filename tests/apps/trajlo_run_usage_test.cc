@@ -26,6 +26,10 @@ TEST_F(TrajloRunTest, WrongUsageIsOne) {
   EXPECT_THAT(error({"--input=x", "--output=y", "--at=begin"}), HasSubstr("scan-end or scan-mid"));
   EXPECT_THAT(error({"--input=x", "--output=y", "--at=scan-end", "--rate=3"}),
               HasSubstr("exclude each other"));
+  for (const char* windows : {"x", "-3", "9-7", "1.5", "3-", "0-999999999"}) {
+    EXPECT_THAT(error({"--input=x", "--output=y", std::string("--inspect=") + windows}),
+                HasSubstr("--inspect: must be numbers of windows"));
+  }
   EXPECT_THAT(error({"--input=x", "--output=y", "--set=map.radius_m=1,map.voxel_size_m=2"}),
               HasSubstr("map.radius_m (1.0)"));
 }

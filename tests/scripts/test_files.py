@@ -45,7 +45,7 @@ class PlyTest(FolderTest):
                          {"x": [0, 2], "t": [1, 3]})
 
     def test_other_types_and_elements_are_not_taken_for_floats(self):
-        for more in ("property uchar red\n", "property double y\n",
+        for more in ("property uchar red\n", "property int y\n",
                      "element face 1\nproperty float y\n"):
             with self.assertRaisesRegex(files.ReportError, "more than vertices of floats"):
                 self.read(HEAD + "property float x\n" + more, bytes(100))

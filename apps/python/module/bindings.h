@@ -11,6 +11,7 @@ void BindConfig(pybind11::module_* module);
 void BindScan(pybind11::module_* module);
 void BindTrajectory(pybind11::module_* module);
 void BindReader(pybind11::module_* module);
+void BindWindow(pybind11::module_* module);
 void BindOdometry(pybind11::module_* module);
 void BindEvaluation(pybind11::module_* module);
 void BindSimulator(pybind11::module_* module);

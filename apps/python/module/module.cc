@@ -20,6 +20,7 @@ PYBIND11_MODULE(_trajlo, module) {
   BindScan(&module);
   BindTrajectory(&module);
   BindReader(&module);
+  BindWindow(&module);
   BindOdometry(&module);
   BindEvaluation(&module);
   BindSimulator(&module);

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <utility>
 
 #include "apps/python/module/arrays.h"
+#include "apps/python/module/inspected_window.h"
 #include "apps/python/module/window_table.h"
 #include "core/comparison/forms/ceres_form_solver.h"
 #include "core/io/format_text.h"
@@ -36,6 +38,14 @@ OdometrySession::OdometrySession(const RunConfig& config, const SessionRequest& 
     if (request_.on_window.is_none()) return;
     Call([&] { request_.on_window(WindowRow(window)); });
   });
+  if (!request_.on_solved.is_none()) {
+    const auto shared = std::make_shared<const RunConfig>(config);
+    odometry_.OnSolvedWindow([](std::int64_t) { return true; },
+                             [this, shared](std::int64_t index, const Window& window) {
+                               InspectedWindow inspected(index, window, shared);
+                               Call([&] { request_.on_solved(py::cast(std::move(inspected))); });
+                             });
+  }
   if (!request_.covariance && request_.on_pose.is_none()) return;
   odometry_.OnPose([this](const ControlPose& pose, const Matrix6d& covariance) {
     if (request_.covariance) covariances_.push_back(covariance);
@@ -109,7 +119,7 @@ void OdometrySession::Finish() {
   Compute([&] { odometry_.Finish(); });
   is_finished_ = true;
   // They may hold what holds this object, which would keep both for ever.
-  request_.on_window = request_.on_pose = py::none();
+  request_.on_window = request_.on_solved = request_.on_pose = py::none();
   Rethrow();
   const trajlo::PointCounts counts = odometry_.point_counts();
   if (!odometry_.trajectory().empty() && counts.Kept() > 0) return;

@@ -21,6 +21,7 @@ namespace py = pybind11;
 /// What a user of the module asks for, besides the options.
 struct SessionRequest {
   py::object on_window;     ///< Called with a dict of one window; may be None.
+  py::object on_solved;     ///< Called with an InspectedWindow; may be None.
   py::object on_pose;       ///< Called with t_ns, (4, 4) and (6, 6); may be None.
   bool covariance = false;  ///< Keep the covariances.
 };

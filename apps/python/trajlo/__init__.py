@@ -22,17 +22,17 @@ from ._evaluation import evaluate, read_trajectory
 from ._odometry import Odometry
 from ._recording import Recording, open
 from ._simulation import Simulation, scenarios, simulate
-from ._trajlo import Scan, Trajectory
+from ._trajlo import Scan, Trajectory, Window
 from ._trajlo import version as __version__  # noqa: F401
 from .errors import (ConfigError, Error, EstimatorError, EvaluationError, InputError, LostWarning,
                      OutputError, PartialInputWarning, StateError, TrajloWarning, UsageError)
 
-for _name in (Scan, Trajectory):
+for _name in (Scan, Trajectory, Window):
     _name.__module__ = __name__
 del _name
 
 __all__ = [
-    "Odometry", "Scan", "Trajectory", "Recording", "Simulation",
+    "Odometry", "Scan", "Trajectory", "Window", "Recording", "Simulation",
     "open", "simulate", "evaluate", "read_trajectory", "options", "configs", "scenarios",
     "errors", "Error", "ConfigError", "UsageError", "InputError", "EvaluationError", "OutputError",
     "StateError", "EstimatorError", "TrajloWarning", "PartialInputWarning", "LostWarning",

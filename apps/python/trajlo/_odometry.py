@@ -6,10 +6,11 @@ import numpy
 
 from . import _trajlo
 from ._config import ConfigNames, Options, make_config
-from ._trajlo import Scan, Trajectory
+from ._trajlo import Scan, Trajectory, Window
 from .errors import LostWarning, PartialInputWarning, TrajloWarning
 
 WindowCallback = Callable[[Dict[str, Any]], object]
+SolvedCallback = Callable[[Window], object]
 PoseCallback = Callable[[int, numpy.ndarray, numpy.ndarray], object]
 
 
@@ -25,6 +26,8 @@ class Odometry:
     config      a YAML file or the name of a configuration (trajlo.configs()), or several, which
                 override each other; options come last
     on_window   called with every window, as a dict with the columns of `windows`
+    on_solved   called with every window as it was solved, a Window: all factors, residuals and
+                weights, H and g, and solve() with other weights; takes a few ms a window
     on_pose     called with every pose that is final: t_ns, T_world_body (4, 4), and the covariance
                 (6, 6) of its right perturbation [rho; theta], m², m rad, rad²
     covariance  keep these covariances
@@ -36,10 +39,12 @@ class Odometry:
     def __init__(self, options: Optional[Options] = None, *,
                  config: Optional[ConfigNames] = None,
                  on_window: Optional[WindowCallback] = None,
+                 on_solved: Optional[SolvedCallback] = None,
                  on_pose: Optional[PoseCallback] = None,
                  covariance: bool = False):
         self._config = make_config(options, config)
-        self._session = _trajlo.Session(self._config, on_window, on_pose, covariance)
+        self._session = _trajlo.Session(self._config, on_window, on_solved, on_pose,
+                                        covariance)
         self._told_lost = False
         self._told_without_times = False
 

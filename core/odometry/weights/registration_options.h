@@ -11,6 +11,14 @@ namespace trajlo {
 /// A kernel that is fitted is at most this many times as wide as RegistrationOptions::kernel_m.
 constexpr double kWidestKernel = 3.0;
 
+inline Names<KernelKind> KernelNames() {
+  return {{"none", KernelKind::kNone},
+          {"huber", KernelKind::kHuber},
+          {"cauchy", KernelKind::kCauchy},
+          {"geman_mcclure", KernelKind::kGemanMcClure},
+          {"tukey", KernelKind::kTukey}};
+}
+
 /// How a point's distance to its plane is weighed.
 struct RegistrationOptions {
   double sigma_m = 0.03;
@@ -25,13 +33,7 @@ struct RegistrationOptions {
       "Standard deviation of a point's distance to its plane.");
     d(OptionFor::kExperts, "points_per_error", points_per_error, Range<double>{1.0, 1e6},
       "Points on the same surface share its error: this many count as one measurement.");
-    d(OptionFor::kExperts, "kernel", kernel,
-      Names<KernelKind>{{"none", KernelKind::kNone},
-                        {"huber", KernelKind::kHuber},
-                        {"cauchy", KernelKind::kCauchy},
-                        {"geman_mcclure", KernelKind::kGemanMcClure},
-                        {"tukey", KernelKind::kTukey}},
-      "Robust kernel on that distance.");
+    d(OptionFor::kExperts, "kernel", kernel, KernelNames(), "Robust kernel on that distance.");
     d(OptionFor::kExperts, "kernel_m", kernel_m, Range<double>{1e-3, 100.0},
       "Width of the kernel, if it is not fitted; else at most three times that.");
     d(OptionFor::kExperts, "kernel_in_spreads", kernel_in_spreads, Range<double>{0.0, 100.0},

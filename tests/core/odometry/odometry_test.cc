@@ -123,6 +123,38 @@ TEST(Odometry, WhatCallbacksThrowReachesTheCallerAndFinishSettlesTheRest) {
   }
 }
 
+TEST(Odometry, WindowsThatAreAskedForComeAsTheyWereSolvedAndChangeNothing) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  const RunResult plain = RunOn(world, RoomOptions(), 12);
+  Odometry odometry(RoomOptions());
+  std::vector<std::int64_t> asked;
+  odometry.OnSolvedWindow([](std::int64_t index) { return index % 7 == 3; },
+                          [&](std::int64_t index, const Window& window) {
+                            asked.push_back(index);
+                            const WindowStatistics& as_told =
+                                plain.windows[static_cast<std::size_t>(index)];
+                            EXPECT_EQ(window.begin_ns, as_told.begin_ns);
+                            EXPECT_EQ(window.EndNs(), as_told.end_ns);
+                            EXPECT_EQ(window.size(), as_told.segments);
+                            int points = 0;
+                            for (const Segment& segment : window.segments) {
+                              points += static_cast<int>(segment.points.size());
+                            }
+                            EXPECT_EQ(points, as_told.inliers);
+                          });
+  for (int i = 0; i < 12; ++i) odometry.AddScan(world.Sweep(i));
+  odometry.Finish();
+  EXPECT_EQ(asked.front(), 3);
+  EXPECT_EQ(asked.size(), (plain.windows.size() + 3) / 7);
+  const auto& a = plain.odometry->trajectory().poses();
+  const auto& b = odometry.trajectory().poses();
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].T_world_body.t, b[i].T_world_body.t) << i;
+  }
+}
+
 /// A body that starts in motion has several windows at once. A callback that throws in the first of
 /// them takes nothing from the trajectory.
 TEST(Odometry, ACallbackThatThrowsAtAStartInMotionLosesNothing) {
