@@ -41,8 +41,9 @@ void CheckName(const std::string& name, const std::vector<SolverVariant>& others
   const bool is_new = std::none_of(others.begin(), others.end(),
                                    [&](const auto& other) { return other.name == name; });
   if (is_file_name && is_new) return;
-  throw ConfigError(where, "the name '" + name + "' " +
-                               (is_new ? "cannot be that of a folder in a list" : "appears twice"));
+  throw ConfigError(
+      where, "the name '" + name + "' " +
+                 (is_new ? "must not begin with a dot, nor hold / , or \"" : "appears twice"));
 }
 
 /// Applies the settings to `base`.

@@ -28,10 +28,10 @@ def ask(suite, command, what, refusals=None):
 def effective_options(places, suite, configuration, sequence):
     """All options of a run as trajlo_run understands them, the files and the settings."""
     files = suite_files.configs(places, suite, sequence, configuration)
-    values = {**sequence.settings, **configuration.settings}
+    values = suite_files.located(places, suite, {**sequence.settings, **configuration.settings})
     command = [places.program("trajlo_run"), "--show_config", "--show_expert_config",
                "--input=recording", "--output=result", f"--threads={suite.threads}",
-               *flags(sequence.run), *settings_flag(values)]
+               *flags(suite_files.located(places, suite, sequence.run)), *settings_flag(values)]
     there = [str(path) for path in files if path.exists()]  # others are missing with their data
     command += [f"--config={','.join(there)}"] if there else []
     text = ask(suite, command, f"the configuration {configuration.name} on {sequence.name} is "
@@ -51,7 +51,8 @@ def scenario_parameters(places, suite, sequence):
 
 def check_evaluation(places, suite, sequence):
     """Wrong flags are refused before the files are looked for, which has another exit code."""
-    values = {key: value for key, value in sequence.evaluate.items() if key != "kitti_calib"}
+    values = suite_files.located(places, suite, sequence.evaluate)
+    values.pop("kitti_calib", None)
     if values:
         ask(suite, [places.program("trajlo_evaluate"), "estimate", "--truth=truth",
                     "--output=evaluation", "--names=estimate", "--report=false", *flags(values)],

@@ -31,6 +31,10 @@ class Places:
     def program(self, name):
         return programs_in(self.build) / name
 
+    def with_data(self, text):
+        """A flag or an option of a suite, with {data} filled in."""
+        return text.replace("{data}", str(self.data))
+
     def find(self, path):
         """A recording or a truth of a suite, with $VARIABLES filled in."""
         return self.data / os.path.expanduser(os.path.expandvars(path))
@@ -51,12 +55,12 @@ def file_digest(path):
 
 
 def data_identity(path):
-    """What changes when a file, or the files in a folder, do. Recordings have many gigabytes, and
-    their digest would take minutes."""
-    files = [file for file in (path, *path.rglob("*")) if file.is_file()]
-    stats = [file.stat() for file in files]
-    return {"files": len(stats), "bytes": sum(item.st_size for item in stats),
-            "newest_ns": max((item.st_mtime_ns for item in stats), default=0)}
+    """What changes when a file, or the files in a folder, do: names, sizes and times. Recordings have
+    many gigabytes, and a digest of their bytes would take minutes."""
+    files = sorted(file for file in (path, *path.rglob("*")) if file.is_file())
+    stats = [(str(file.relative_to(path)), file.stat()) for file in files]
+    return {"files": len(stats), "bytes": sum(item.st_size for _, item in stats),
+            "digest": digest([(name, item.st_size, item.st_mtime_ns) for name, item in stats])}
 
 
 def identify(program):

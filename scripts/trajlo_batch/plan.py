@@ -5,12 +5,18 @@ A run is done when its status.json carries the digests of its job. What has chan
 OUTPUT/replaced/ before anything new is written, so that no result is ever overwritten.
 """
 import dataclasses
+import pathlib
 import shutil
 
-from trajlo_batch import checks
+import yaml
+
+from trajlo_batch import checks, suite_files
 from trajlo_batch.kitti_calib import camera_in_lidar
 from trajlo_batch.places import (ROOT, data_identity, digest, file_digest, identify, read_json_if,
                                  write_json)
+from trajlo_batch.steps import lists_of_lidars
+from trajlo_batch.yaml_lines import SuiteError
+from trajlo_batch.yaml_tree import flatten
 
 DONE, MISSING, CHANGED = "done", "missing", "changed"
 
@@ -51,23 +57,23 @@ def recording_identity(places, sequence):
 def files_sought(places, sequence):
     """What a sequence needs and is not there: recording, truth, and files that come with them."""
     paths = [*sequence.recording, *([sequence.truth] if sequence.truth else [])]
-    paths += [path.replace("{data}/", "") for path in (*sequence.config,
-                                                       *sequence.evaluate.values())
-              if path.startswith("{data}/")]
+    named = (*sequence.config, *sequence.settings.values(), *sequence.run.values(),
+             *sequence.evaluate.values())
+    paths += [path.replace("{data}/", "") for path in named if path.startswith("{data}/")]
     found = [places.find(path) for path in paths]
     return [str(path) for path in found if not path.exists()]
 
 
-def evaluation_flags(places, sequence):
-    """Flags of trajlo_evaluate. `kitti_calib` names a calib.txt of KITTI, whose truth is the path
-    of camera 0."""
-    values = {name: value.replace("{data}", str(places.data))
-              for name, value in sequence.evaluate.items()}
+def evaluation_flags(places, suite, sequence):
+    """Flags of trajlo_evaluate, and digests of the files that they name. `kitti_calib` names a
+    calib.txt of KITTI, whose truth is the path of camera 0."""
+    values = suite_files.located(places, suite, sequence.evaluate)
+    digests = suite_files.digests(values)
     calibration = values.pop("kitti_calib", None)
     if calibration:
         pose = camera_in_lidar(calibration)
         values["T_body_truth"] = ",".join(f"{number:.12g}" for number in pose.flat)
-    return values
+    return values, digests
 
 
 def asked_options(places, suite, configuration, sequence, cache):
@@ -83,14 +89,19 @@ def make_run(suite, places, programs, configuration, sequence, cache):
         cache[sequence.name] = recording_identity(places, sequence)
     recording = cache[sequence.name]
     truth = places.find(sequence.truth) if sequence.truth else None
+    run_flags = suite_files.located(places, suite, sequence.run)
+    tree = yaml.safe_load(options)
+    named = suite_files.digests({**dict(flatten(tree)), **run_flags})
+    evaluation, evaluation_files = evaluation_flags(places, suite, sequence)
     job = {
         "configuration": configuration.name, "sequence": sequence.name,
         "program": programs["trajlo_run"], "recording": recording, "config": files, "set": values,
-        "run": sequence.run, "topics": sequence.topics, "lidars": configuration.lidars,
+        "run": run_flags, "topics": sequence.topics, "lidars": configuration.lidars,
+        "lidar_options": lists_of_lidars(tree),
         "threads": suite.threads, "timeout_s": suite.timeout_s,
         "keep_map": suite.keep_maps,
         "depends_on": {
-            "options": digest([options, sequence.run]),
+            "options": digest([options, run_flags, *named]),
             "recording": digest([recording, sequence.topics, configuration.lidars]),
             "program": programs["trajlo_run"]["digest"]},
         "evaluation": {
@@ -98,7 +109,7 @@ def make_run(suite, places, programs, configuration, sequence, cache):
             "truth": str(truth) if truth else "",
             "truth_digest": file_digest(truth) if truth and truth.is_file() else "",
             "has_truth": bool(truth or sequence.scenario),
-            "flags": evaluation_flags(places, sequence)},
+            "flags": evaluation, "files": evaluation_files},
     }
     if sequence.scenario:
         job["depends_on"]["simulator"] = programs["trajlo_simulate"]["digest"]
@@ -125,6 +136,30 @@ def evaluation_changed(folder, evaluation, any_version):
     return compared(old) != compared(evaluation)
 
 
+def has_failed(folder, status):
+    """Whether a run, or its evaluation, ended without a result."""
+    evaluation = read_json_if(folder / "evaluation_status.json") or {}
+    return status["exit_code"] not in (0, 3) or evaluation.get("reason", "") not in ("", "no truth")
+
+
+def check_output(places, suite):
+    """Throws SuiteError where results of another suite are, or would be within a recording."""
+    other = (read_json_if(places.output / "jobs.json") or {}).get("suite", "")
+    if other and other != suite_path(suite) and pathlib.Path(other).is_file():
+        raise SuiteError(f"{places.output} holds the runs of {other}; name another folder with "
+                         "--output, or a suite of another name")
+    output = places.output.absolute()
+    for sequence in suite.sequences:
+        for path in map(places.find, sequence.recording):
+            if path.is_dir() and path.absolute() in (output, *output.parents):
+                raise SuiteError(f"{output} lies in the recording {path}, which would change with "
+                                 "every run; name another folder with --output")
+
+
+def suite_path(suite):
+    return str(pathlib.Path(suite.file).absolute())
+
+
 def run_name(configuration, sequence):
     """What --only matches, and the run's folder."""
     return f"{configuration.name}/{sequence.name}"
@@ -140,6 +175,7 @@ def make_plan(suite, places, any_version=False, retry=False):
     names = ["trajlo_run", "trajlo_evaluate"]
     names += ["trajlo_simulate"] if any(item.scenario for item in suite.sequences) else []
     programs = {name: identify(places.program(name)) for name in names}
+    check_output(places, suite)
     checks.check_pairs(places, suite)
     runs, missing, cache = [], {}, {}
     for configuration, sequence in suite.pairs:
@@ -155,7 +191,7 @@ def make_plan(suite, places, any_version=False, retry=False):
             run.outdated = run.changes
             if evaluation_changed(places.output / run.folder, run.job["evaluation"], any_version):
                 run.outdated += ("evaluation",)
-            if retry and status["exit_code"] not in (0, 3):
+            if retry and has_failed(places.output / run.folder, status):
                 run.changes += ("it failed",)
             run.state = CHANGED if run.changes else DONE
         runs.append(run)
@@ -220,6 +256,7 @@ def write_plan(plan, keep_recordings):
             write_if_changed(folder / "job.json", jsonable(job))
         write_if_changed(folder / "evaluation_job.json", jsonable(run.job["evaluation"]))
     table = {
+        "suite": suite_path(plan.suite),
         "runs": [{"folder": run.folder, "recording": run.sequence.name if run.sequence.scenario
                   else ""} for run in plan.runs],
         "recordings": write_recording_jobs(plan), "threads": plan.suite.threads,

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Numbers of a paper, from config/published: rows of approaches over columns of sequences."""
 import dataclasses
-import pathlib
 
 from trajlo_batch import suite_files
 from trajlo_batch.yaml_lines import SuiteError, check, load, texts
@@ -32,10 +31,32 @@ def is_value(text):
         return False
 
 
+# The batch's own tables.
+OWN_TABLES = ("table", "speed")
+# What a column of results.csv is in, by the end of its name.
+UNITS = {"_m": ("m",), "_deg": ("°", "deg"), "_percent": ("%",), "_per_m": ("°/m", "deg/m"),
+         "_s": ("s",)}
+
+
 def published_of(suite):
-    """(name, table) of each file that a suite is compared with."""
-    return [(pathlib.PurePath(word).stem, read_published(suite_files.find(suite.file, word)))
-            for word in suite.published]
+    """(name, table) of each file that a suite is compared with. Throws SuiteError where numbers would
+    stand side by side that say different things."""
+    found = []
+    for word in suite.published:
+        path = suite_files.find(suite.file, word)
+        table = read_published(path)
+        if path.stem in OWN_TABLES:
+            raise SuiteError(f"{path}: the batch writes a {path.stem}.md of its own; give this file "
+                             "another name")
+        if table.metric != suite.metric:
+            raise SuiteError(f"{path}: its numbers are {table.metric}, and those of {suite.file} are "
+                             f"{suite.metric}; give the suite the metric {table.metric}")
+        units = next((units for end, units in UNITS.items() if suite.metric.endswith(end)), ())
+        if units and table.unit not in units:
+            raise SuiteError(f"{path}: its numbers are in {table.unit}, and ours of {suite.metric} "
+                             f"are in {units[0]}; convert those of the file")
+        found.append((path.stem, table))
+    return found
 
 
 def read_published(path):

@@ -11,6 +11,7 @@ import yaml
 from trajlo_batch.places import read_json_if
 from trajlo_batch.steps import simulate_command
 from trajlo_batch.yaml_lines import SuiteError
+from trajlo_batch.yaml_tree import flatten
 from trajlo_report.names import nearest
 
 PARTIAL = 3  # exit code of runs whose input was damaged, left out in part or in doubt
@@ -19,14 +20,6 @@ OK, FAILED, UNFINISHED, NO_TRUTH = "ok", "x", "not finished", "no truth"
 DETERMINED = "ate_rotation_determined"
 FILLED_IN = ("sensor.T_body_lidar", "input.topics")  # options that the job of a run may say
 NOT_ASKED = "not asked for"  # was not done, and the batch was told to do others only
-
-
-def flatten(tree, prefix=""):
-    for key, value in tree.items():
-        if isinstance(value, dict):
-            yield from flatten(value, f"{prefix}{key}.")
-        else:
-            yield f"{prefix}{key}", value
 
 
 def own_options(folder, asked):
@@ -114,6 +107,8 @@ def divergence(estimate):
 
 def run_values(folder):
     summary = read_json_if(folder / "result" / "run.json")
+    if dig(summary, "exit", "reason") == "running":  # It was killed: its sums are still zeros.
+        summary = {"versions": dig(summary, "versions")}
     return {
         "data_s": dig(summary, "result", "duration_s"),
         "times_real_time": dig(summary, "resources", "real_time_factor"),
@@ -154,7 +149,7 @@ def outcome(folder, status, diverged):
     """One of OK, FAILED, UNFINISHED, NO_TRUTH, and the reason."""
     evaluation_status = read_json_if(folder / "evaluation_status.json")
     if not status:
-        return UNFINISHED, ("see snakemake.log" if (folder / "log.txt").is_file() else
+        return UNFINISHED, ("see log.txt and snakemake.log" if (folder / "log.txt").is_file() else
                             "not started; see snakemake.log" if (folder / "job.json").is_file() else
                             "not started")
     if status["exit_code"] not in USABLE:

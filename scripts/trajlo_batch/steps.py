@@ -23,6 +23,9 @@ EXIT_REASONS = {0: "ok", 1: "configuration refused", 2: "input unreadable",
                 3: "input damaged, left out in part or in doubt", 4: "estimator lost",
                 5: "output not writable", 6: "out of memory, or a defect"}
 INTERRUPTED = (130, 143, -signal.SIGINT, -signal.SIGTERM, -signal.SIGHUP)
+# Nothing of the method, and another time it may be otherwise: the output was not writable, or the
+# program could not be started.
+HINDERED = (5, 126, 127)
 TIMEOUT = "timeout"
 PAGE_POINTS = 300_000  # in the 3-D view of a run: a batch has hundreds of pages
 
@@ -85,36 +88,37 @@ def simulated_rig(scenario_file):
     return rig
 
 
-def configured_rig(files):
-    """sensor.T_body_lidar of the last configuration file that has it."""
-    rig = []
-    for file in files:
-        options = yaml.safe_load(pathlib.Path(file).read_text()) or {}
-        rig = options.get("sensor", {}).get("T_body_lidar", rig)
-    return rig
+def lists_of_lidars(options):
+    """Of all options, those that have a list with an entry for each LiDAR: {section: {key: list}}."""
+    return {section: {key: value for key, value in (options.get(section) or {}).items()
+                      if isinstance(value, list) and value}
+            for section in ("input", "sensor")}
 
 
 def rig_of(job, output, folder):
-    """Inputs of a run, and the options that say which LiDARs they are and where they sit: as a
-    configuration says, or else as they were simulated."""
-    options = {}
+    """Inputs of a run, and the options that say which LiDARs they are and where they sit: as its
+    options say, or else as they were simulated."""
     lidars = job["lidars"]
-    rig = configured_rig(job["config"])
+    lists = {section: dict(values) for section, values in job["lidar_options"].items()}
+    topics = job["topics"] or lists["input"].pop("topics", [])
+    options = {}
+    if lidars:
+        options = {section: {key: chosen(values, lidars, f"values of {section}.{key}")
+                             for key, values in found.items()}
+                   for section, found in lists.items() if found}
     if "scenario" in job["recording"]:
-        rig = rig or simulated_rig(output / "truth" / f"{job['sequence']}.yaml")
+        rig = lists["sensor"].get("T_body_lidar") or simulated_rig(
+            output / "truth" / f"{job['sequence']}.yaml")
         recording = output / "recordings" / job["sequence"]
         inputs = [recording / f"lidar{i}" for i in range(len(rig))] if len(rig) > 1 else [recording]
         inputs = chosen(inputs, lidars, "in the recording")
-        options["sensor"] = {"T_body_lidar": chosen(rig, lidars, "in the rig")}
+        options.setdefault("sensor", {})["T_body_lidar"] = chosen(rig, lidars, "in the rig")
     else:
         inputs = job["recording"]["paths"]
-        topics = job["topics"]
         if topics:
-            options["input"] = {"topics": chosen(topics, lidars, "topics")}
+            options.setdefault("input", {})["topics"] = chosen(topics, lidars, "topics")
         else:
             inputs = chosen(inputs, lidars, "in the recording")
-        if lidars and rig:
-            options["sensor"] = {"T_body_lidar": chosen(rig, lidars, "in the configuration")}
     files = list(job["config"])
     if options:
         rig_file = folder / "rig.yaml"
@@ -190,6 +194,8 @@ def run_alone(job, folder):
         reason = str(error)
     if code in INTERRUPTED:
         raise StepError("the run was interrupted")
+    if code in HINDERED:
+        raise StepError(f"the run was hindered: {last_message(folder / 'log.txt')}")
     if not job["keep_map"]:
         (result / "map.ply").unlink(missing_ok=True)
     if code == TIMEOUT:
@@ -229,6 +235,8 @@ def evaluate(job_file):
         code = execute(command, folder / "evaluation_log.txt", 0)
         if code in INTERRUPTED:
             raise StepError("the evaluation was interrupted")
+        if code in HINDERED:
+            raise StepError(f"the evaluation was hindered: {last_message(folder / 'evaluation_log.txt')}")
         status.update(exit_code=code, command=command)
         if not (output / "evaluation.json").is_file():
             status["reason"] = f"no evaluation: {last_message(folder / 'evaluation_log.txt')}"

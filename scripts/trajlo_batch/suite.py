@@ -14,6 +14,9 @@ NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+-]*")
 SHARED_KEYS = {"recording": (str, list), "truth": str, "topics": list, "config": (str, list),
                "set": dict, "run": dict, "evaluate": dict, "seeds": list,
                "duration_s": (int, float), "parameters": dict}
+# Only recordings that are simulated have these, and only those that are there the others.
+SIMULATED_KEYS = ("seeds", "duration_s", "parameters")
+RECORDED_KEYS = ("recording", "truth", "topics")
 SEQUENCE_KEYS = {"name": str, "simulate": str, "degenerate": str, **SHARED_KEYS}
 CONFIGURATION_KEYS = {"name": str, "label": str, "category": str, "sensors": str, "lidars": list,
                       "config": (str, list), "set": dict, "only": (str, list), "note": str}
@@ -117,16 +120,37 @@ def flags(mapping, key):
             for name in values}
 
 
+# Folders of the batch itself.
+RESERVED = ("recordings", "truth", "replaced", "slurm", "figures")
+
+
 def valid_name(mapping, name):
     if not NAME.fullmatch(name):
         raise SuiteError(f"{mapping.where('name')}: {name!r} cannot be the name of a folder; use "
                          "letters, digits and . _ + -")
+    if name in RESERVED:
+        raise SuiteError(f"{mapping.where('name')}: the batch has a folder {name} of its own; choose "
+                         "another name")
     return name
+
+
+def check_kind(entry):
+    """A key that would be without effect is refused; `defaults` may have those of both kinds."""
+    is_simulated = "simulate" in entry
+    for key in RECORDED_KEYS if is_simulated else SIMULATED_KEYS:
+        if key not in entry:
+            continue
+        kind = "is simulated" if is_simulated else "is not simulated"
+        instead = (": set input.duration_s reads a part of a recording"
+                   if key == "duration_s" else "")
+        raise SuiteError(f"{entry.where(key)}: this sequence {kind}, and has no use for {key}"
+                         f"{instead}")
 
 
 def read_sequences(entry, defaults):
     """The sequences of one entry: one, or one per seed."""
     check(entry, SEQUENCE_KEYS, "a sequence")
+    check_kind(entry)
     both = {**defaults, **entry}
     group = valid_name(entry, entry.get("name") or entry.get("simulate") or "")
     own = {key: texts(entry, key) for key in ("config", "recording", "topics")}
@@ -134,7 +158,8 @@ def read_sequences(entry, defaults):
     shared = {
         "group": group,
         "config": tuple(common["config"] + own["config"]),
-        "topics": tuple(own["topics"] or common["topics"]),
+        "topics": tuple(topic.replace("{name}", group)
+                        for topic in own["topics"] or common["topics"]),
         "settings": {**settings(defaults, "set"), **settings(entry, "set")},
         "run": {**flags(defaults, "run"), **flags(entry, "run")},
         "evaluate": {**flags(defaults, "evaluate"), **flags(entry, "evaluate")},

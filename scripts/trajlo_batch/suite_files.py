@@ -3,7 +3,7 @@
 import os
 import pathlib
 
-from trajlo_batch.places import ROOT
+from trajlo_batch.places import ROOT, file_digest
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_report.names import nearest, suggestion
 
@@ -63,3 +63,28 @@ def configs(places, suite, sequence, configuration):
     names = named_configs()
     return [pathlib.Path(word.replace("{data}", str(places.data))) if word.startswith("{data}/")
             else find(suite.file, word, names) for word in (*sequence.config, *configuration.config)]
+
+
+# Options of trajlo_run, and flags of it and of trajlo_evaluate, that name files.
+FILES = ("input.stamps_file", "config", "times", "kitti_calib")
+
+
+def located(places, suite, values):
+    """Options or flags of a suite with their files as absolute paths, found as `config` is: jobs
+    work in another folder. Throws SuiteError where one is missing that does not come with the data."""
+    def file(key, word):
+        if "{data}" in word:
+            return places.with_data(word)
+        return str(find(suite.file, word, named_configs() if key == "config" else None).absolute())
+
+    return {key: ",".join(file(key, word) for word in value.split(","))
+            if key in FILES and value else places.with_data(value)
+            for key, value in values.items()}
+
+
+def digests(values):
+    """Of the files that options or flags name: what was made with them is made anew when they
+    change."""
+    paths = [pathlib.Path(word) for key, value in sorted(values.items()) if key in FILES and value
+             for word in value.split(",")]
+    return [file_digest(path) for path in paths if path.is_file()]

@@ -110,6 +110,8 @@ def average_cell(cells, decimals):
     if not values:
         return Cell(ABSENT)
     text = f"{statistics.fmean(values):.{decimals}f}"
+    used = [cell.text for cell in cells if not math.isnan(cell.value)]
+    text += "".join(f" {sign}" for sign in (DOUBT, UNSURE) if any(sign in said for said in used))
     if len(values) < len(cells):
         return Cell(f"{text} ({len(values)} of {len(cells)})")
     return Cell(text, statistics.fmean(values))

@@ -30,6 +30,9 @@ def _mapping(loader, node):
     result.lines, result.file = {}, loader.name
     yield result
     for key_node, value_node in node.value:
+        if key_node.tag == "tag:yaml.org,2002:merge":
+            raise SuiteError(f"{loader.name}:{key_node.start_mark.line + 1}: merge keys (<<) are not "
+                             "read; write the keys out, or use defaults")
         key = loader.construct_object(key_node, deep=True)
         line = key_node.start_mark.line + 1
         if not isinstance(key, str):

@@ -23,7 +23,7 @@ configurations:
 """
 FAILING = """
   - name: impossible
-    set: {input.stamps_file: there_is_no_such_file.txt}
+    set: {input.stamps_file: no_stamps.txt}
   - name: crashing
     set: {window.segments: 2}
 """
@@ -163,6 +163,7 @@ class BatchTest(FolderTest):
 
     def test_runs_that_fail_are_an_x_and_the_batch_goes_on(self):
         suite = SUITE.replace("[1, 2]", "[1]") + FAILING
+        self.write("no_stamps.txt", "not a number\n")
         done = self.batch(suite, "--only", "plain/*")
         self.assertEqual(done.returncode, 0, done.log)  # the others were not asked for
         self.assertEqual(sorted(row["result"] for row in self.rows()),
@@ -173,7 +174,7 @@ class BatchTest(FolderTest):
         self.assertEqual({name: row["result"] for name, row in rows.items()},
                          {"plain": "ok", "impossible": "x", "crashing": "x"})
         self.assertEqual(rows["impossible"]["exit_code"], "2")
-        self.assertIn("there_is_no_such_file.txt", rows["impossible"]["reason"])
+        self.assertIn("no_stamps.txt", rows["impossible"]["reason"])
         self.assertEqual(rows["crashing"]["exit_code"], str(-signal.SIGSEGV))
         self.assertIn("crashed: SIGSEGV", rows["crashing"]["reason"])
         table = (self.output / "table.md").read_text()

@@ -134,5 +134,75 @@ class SuiteFilesTest(FolderTest):
             published_of(suite)
 
 
+PUBLISHED = """
+source: a paper
+caption: errors
+metric: {metric}
+unit: "{unit}"
+decimals: 2
+columns: [hall]
+rows:
+  - {{approach: theirs, category: LO, values: ["0.75"]}}
+"""
+
+
+class PublishedTest(FolderTest):
+    def compare(self, metric, unit, name="paper.yaml", ours="ate_rmse_m"):
+        self.write(name, PUBLISHED.format(metric=metric, unit=unit))
+        return published_of(read_suite(self.write(
+            "s.yaml", SUITE + f"metric: {ours}\npublished: {name}\n")))
+
+    def test_numbers_of_another_kind_or_unit_are_not_compared(self):
+        self.assertEqual(self.compare("ate_rmse_m", "m")[0][0], "paper")
+        self.compare("kitti_translation_percent", "%", ours="kitti_translation_percent")
+        with self.assertRaisesRegex(SuiteError, "give the suite the metric kitti_translation"):
+            self.compare("kitti_translation_percent", "%")
+        with self.assertRaisesRegex(SuiteError, "are in cm, and ours of ate_rmse_m are in m"):
+            self.compare("ate_rmse_m", "cm")
+
+    def test_the_batchs_own_tables_are_not_overwritten(self):
+        for name in ("speed.yaml", "table.yaml"):
+            with self.assertRaisesRegex(SuiteError, "of its own; give this file another name"):
+                self.compare("ate_rmse_m", "m", name)
+
+
+class LocatedTest(FolderTest):
+    """Files that options and flags name."""
+
+    def setUp(self):
+        super().setUp()
+        self.places = Places(self.folder, self.folder / "data", self.folder / "out")
+        self.suite = read_suite(self.write("s/s.yaml", SUITE))
+
+    def located(self, **values):
+        return suite_files.located(self.places, self.suite,
+                                   {key.replace("__", "."): value for key, value in values.items()})
+
+    def test_they_are_found_beside_the_suite(self):
+        stamps = self.write("s/stamps.txt", "1\n")
+        self.assertEqual(self.located(input__stamps_file="stamps.txt", window__segments="3"),
+                         {"input.stamps_file": str(stamps), "window.segments": "3"})
+        with self.assertRaisesRegex(SuiteError, "there is no .*/s/tims.txt"):
+            self.located(times="tims.txt")
+
+    def test_those_of_the_data_are_found_there_and_may_be_missing(self):
+        self.assertEqual(self.located(times="{data}/a.txt"),
+                         {"times": f"{self.folder}/data/a.txt"})
+
+    def test_configurations_have_names_too(self):
+        mine = self.write("s/mine.yaml", "")
+        self.assertEqual(self.located(config="ouster,mine.yaml"),
+                         {"config": f"{ROOT}/config/datasets/ouster.yaml,{mine}"})
+
+    def test_what_they_say_is_a_part_of_what_a_result_depends_on(self):
+        stamps = self.write("s/stamps.txt", "1\n")
+        before = suite_files.digests(self.located(input__stamps_file="stamps.txt"))
+        stamps.write_text("2\n")
+        after = suite_files.digests(self.located(input__stamps_file="stamps.txt"))
+        self.assertEqual((len(before), len(after)), (1, 1))
+        self.assertNotEqual(before, after)
+        self.assertEqual(suite_files.digests({"window.segments": str(stamps), "times": ""}), [])
+
+
 if __name__ == "__main__":
     unittest.main()

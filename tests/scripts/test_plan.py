@@ -267,6 +267,47 @@ class PlanTest(PlannedTest):
         self.assertEqual(self.states(self.plan()), ["done", "done"])
         self.assertEqual(self.states(self.plan(retry=True)), ["changed", "changed"])
 
+    def test_an_evaluation_that_failed_is_tried_again_on_request_too(self):
+        batch = self.plan()
+        self.finish(batch)
+        status = self.places.output / batch.runs[0].folder / "evaluation_status.json"
+        status.write_text(json.dumps({"exit_code": 6, "reason": "no evaluation: a defect"}))
+        self.assertEqual([run.state for run in self.plan().runs], [plan.DONE, plan.DONE])
+        self.assertEqual([run.state for run in self.plan(retry=True).runs],
+                         [plan.CHANGED, plan.DONE])
+        status.write_text(json.dumps({"exit_code": None, "reason": "no truth"}))
+        self.assertEqual([run.state for run in self.plan(retry=True).runs], [plan.DONE, plan.DONE])
+
+    def test_files_that_options_and_flags_name_are_a_part_of_what_a_run_is(self):
+        times = self.write("times.txt", "1\n")
+        text = SUITE.replace("simulate: hall_os1_16", "simulate: hall_os1_16\n"
+                             "    run: {config: mine.yaml}\n    evaluate: {times: times.txt}")
+        mine = self.write("mine.yaml", "")
+        self.finish(self.plan(text))
+        for run in self.plan(text).runs:  # as if they had been evaluated
+            (self.places.output / run.folder / "evaluation_status.json").write_text("{}")
+        self.assertEqual({run.outdated for run in self.plan(text).runs}, {()})
+        times.write_text("2\n")
+        self.assertEqual({run.outdated for run in self.plan(text).runs}, {("evaluation",)})
+        mine.write_text("window: {segments: 2}\n")
+        self.assertEqual({run.outdated for run in self.plan(text).runs},
+                         {("options", "evaluation")})
+
+    def test_a_folder_is_that_of_one_suite(self):
+        self.finish(self.plan())
+        other = self.write("other/s.yaml", SUITE)
+        with self.assertRaisesRegex(SuiteError, f"holds the runs of {self.folder}/s.yaml; name"):
+            plan.make_plan(read_suite(other), self.places)
+        (self.folder / "s.yaml").unlink()  # It was moved.
+        plan.make_plan(read_suite(other), self.places)
+
+    def test_results_do_not_go_into_a_recording(self):
+        recording = self.places.output.parent
+        text = (f"sequences:\n  - {{name: a, recording: {recording}}}\n"
+                "configurations:\n  - name: plain\n")
+        with self.assertRaisesRegex(SuiteError, "lies in the recording"):
+            self.plan(text)
+
     def test_an_option_that_does_not_exist_ends_the_batch_before_it_begins(self):
         with self.assertRaisesRegex(SuiteError, "varied.*no such option"):
             self.plan(SUITE.replace("window.segments", "bad"))
@@ -291,7 +332,7 @@ class ResultsTest(PlannedTest):
         plan.write_plan(batch, keep_recordings=True)
         self.write(f"out/{batch.runs[1].folder}/log.txt", "")
         self.assertEqual([row["reason"] for row in results.collect(batch)],
-                         ["not started; see snakemake.log", "see snakemake.log"])
+                         ["not started; see snakemake.log", "see log.txt and snakemake.log"])
 
     def test_a_crash_is_an_x_with_its_reason(self):
         batch = self.plan()
@@ -335,6 +376,19 @@ class ResultsTest(PlannedTest):
         self.assertNotIn("?", (self.places.output / "speed.md").read_text())
         self.assertIn(f'<p class="failed">{said}</p>',
                       (self.places.output / "report.html").read_text())
+
+    def test_a_killed_run_has_no_sums(self):
+        batch = self.plan()
+        self.finish(batch, exit_code=-9)
+        folder = self.places.output / batch.runs[0].folder / "result"
+        folder.mkdir()
+        (folder / "run.json").write_text(json.dumps({
+            "exit": {"code": None, "reason": "running"}, "versions": {"git": "abc"},
+            "windows": {"inlier_share": 0.0}, "result": {"duration_s": 0.0, "poses_flagged": 0}}))
+        row = results.collect(batch)[0]
+        self.assertEqual([row[key] for key in ("data_s", "inlier_share", "poses_flagged",
+                                               "times_real_time", "version")],
+                         [None, None, None, None, "abc"])
 
     def test_rows_name_the_options_that_vary(self):
         batch = self.plan()

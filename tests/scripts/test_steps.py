@@ -3,13 +3,14 @@
 import json
 import resource
 import signal
+import subprocess
 import unittest
 
 import numpy as np
 import yaml
 from evaluation_folder import write_evaluation
 from result_folder import write_result
-from support import FolderTest
+from support import FolderTest, built
 
 from trajlo_batch import plan, steps
 from trajlo_batch.kitti_calib import camera_in_lidar
@@ -24,12 +25,7 @@ lidar0:
 lidar1:
   T_body_lidar_matrix: [-1, 0, 0, -0.5, 0, -1, 0, 0, 0, 0, 1, 2, 0, 0, 0, 1]
 """
-TWO_LIDARS = """
-sensor:
-  T_body_lidar:
-    - translation_m: [1, 0, 0]
-    - translation_m: [2, 0, 0]
-"""
+TWO_LIDARS = {"T_body_lidar": [{"translation_m": [1, 0, 0]}, {"translation_m": [2, 0, 0]}]}
 
 
 class MemoryTest(unittest.TestCase):
@@ -41,7 +37,8 @@ class MemoryTest(unittest.TestCase):
 class RigTest(FolderTest):
     def rig(self, job):
         """Inputs, and the options that the job writes."""
-        job = {"sequence": "two-seed1", "config": [], "topics": [], "lidars": [], **job}
+        job = {"sequence": "two-seed1", "config": [], "topics": [], "lidars": [],
+               "lidar_options": {"input": {}, "sensor": {}}, **job}
         run = self.folder / "plain" / "two-seed1"
         run.mkdir(parents=True, exist_ok=True)
         inputs, files = steps.rig_of(job, self.folder, run)
@@ -50,10 +47,10 @@ class RigTest(FolderTest):
         self.assertEqual(files[-1:] == [str(rig_file)], options is not None)
         return inputs, options
 
-    def simulated(self, lidars, config=()):
+    def simulated(self, lidars, **options):
         self.write("truth/two-seed1.yaml", SCENARIO)
         return self.rig({"recording": {"scenario": "two"}, "lidars": lidars,
-                         "config": [str(file) for file in config]})
+                         "lidar_options": {"input": {}, "sensor": {}, **options}})
 
     def test_a_simulated_rig_brings_its_extrinsics(self):
         inputs, options = self.simulated([])
@@ -67,19 +64,43 @@ class RigTest(FolderTest):
         self.assertEqual(options["sensor"]["T_body_lidar"][0]["matrix"][2], [0, 0, 1, 2])
 
     def test_a_configuration_that_says_where_the_lidars_sit_is_heard(self):
-        config = [self.write("rig_of_two.yaml", TWO_LIDARS), self.write("other.yaml", "{}")]
         for lidars, expected in (([], [[1, 0, 0], [2, 0, 0]]), ([1], [[2, 0, 0]])):
-            options = self.simulated(lidars, config)[1]
+            options = self.simulated(lidars, sensor=TWO_LIDARS)[1]
             self.assertEqual(options["sensor"]["T_body_lidar"],
                              [{"translation_m": position} for position in expected])
 
     def test_one_of_two_topics_keeps_its_own_extrinsics(self):
-        config = self.write("rig_of_two.yaml", TWO_LIDARS)
-        inputs, options = self.rig({"recording": {"paths": ["a.bag"]}, "config": [str(config)],
-                                    "topics": ["/front", "/rear"], "lidars": [1]})
-        self.assertEqual(inputs, ["a.bag"])
-        self.assertEqual(options, {"input": {"topics": ["/rear"]},
-                                   "sensor": {"T_body_lidar": [{"translation_m": [2, 0, 0]}]}})
+        rear = {"input": {"topics": ["/rear"]},
+                "sensor": {"T_body_lidar": [{"translation_m": [2, 0, 0]}]}}
+        topics = ["/front", "/rear"]
+        for job in ({"topics": topics, "lidar_options": {"input": {}, "sensor": TWO_LIDARS}},
+                    {"lidar_options": {"input": {"topics": topics}, "sensor": TWO_LIDARS}}):
+            inputs, options = self.rig({"recording": {"paths": ["a.bag"]}, "lidars": [1], **job})
+            self.assertEqual((inputs, options), (["a.bag"], rear))
+
+    def test_lidars_that_are_exchanged_take_all_of_their_options_along(self):
+        options = self.simulated([1, 0], sensor=TWO_LIDARS, input={
+            "clock_offset_s": [0.0, 0.05], "time_unit": ["ns", "s"]})[1]
+        self.assertEqual(options["input"], {"clock_offset_s": [0.05, 0.0],
+                                            "time_unit": ["s", "ns"]})
+        self.assertEqual([pose["translation_m"][0] for pose in options["sensor"]["T_body_lidar"]],
+                         [2, 1])
+
+    def test_options_of_each_lidar_are_found_however_they_are_written(self):
+        for text in ("sensor.T_body_lidar: [{translation_m: [1, 0, 0]}, {translation_m: [2, 0, 0]}]\n"
+                     "input.clock_offset_s: [0, 0.05]\n",
+                     "sensor: {T_body_lidar: [{translation_m: [1, 0, 0]}, {translation_m: [2, 0, 0]}]}"
+                     "\ninput: {clock_offset_s: [0, 0.05]}\n"):
+            shown = subprocess.run([built("trajlo_run"), "--show_config", "--config",
+                                    self.write("rig.yaml", text)], check=True, capture_output=True)
+            lists = steps.lists_of_lidars(yaml.safe_load(shown.stdout))
+            self.assertEqual(lists["input"], {"clock_offset_s": [0.0, 0.05]})
+            self.assertEqual(len(lists["sensor"]["T_body_lidar"]), 2)
+        empty = subprocess.run([built("trajlo_run"), "--show_config", "--config",
+                                self.write("rig.yaml", "sensor:\n")], check=True,
+                               capture_output=True)
+        self.assertEqual(steps.lists_of_lidars(yaml.safe_load(empty.stdout)),
+                         {"input": {}, "sensor": {}})
 
     def test_a_plain_recording_needs_no_options(self):
         self.assertEqual(self.rig({"recording": {"paths": ["scans"]}}), (["scans"], None))
@@ -95,6 +116,7 @@ class RunTest(FolderTest):
         program = self.executable("program", f"#!/bin/sh\n{script}\n")
         job = {"program": {"path": str(program)}, "recording": {"paths": ["scans"]}, "config": [],
                "set": {"a.b": "1"}, "run": {"at": "scan-end"}, "topics": [], "lidars": [],
+               "lidar_options": {"input": {}, "sensor": {}},
                "threads": 2, "timeout_s": 0, "keep_map": True, "sequence": "one",
                "configuration": "plain", "depends_on": {"options": "x"}, **changes}
         path = self.write("plain/one/job.json", json.dumps(job))
@@ -128,6 +150,12 @@ class RunTest(FolderTest):
         status = self.run_with("printf 'trajlo_run: no point can be used\\n  input       3 of 3 scans\\n"
                                "  windows     none\\n  result      no_usable_points\\n'; exit 2")
         self.assertEqual(status["reason"], "input unreadable: trajlo_run: no point can be used")
+
+    def test_what_says_nothing_of_the_method_is_no_result(self):
+        for code in (5, 126, 127):
+            with self.assertRaisesRegex(steps.StepError, "hindered: trajlo_run: disk full"):
+                self.run_with(f"echo 'trajlo_run: disk full' >&2; exit {code}")
+            self.assertFalse((self.folder / "plain/one/status.json").is_file())
 
     def test_a_signal_is_a_crash(self):
         status = self.run_with("kill -ABRT $$")
@@ -178,7 +206,7 @@ class EvaluationFlagsTest(FolderTest):
         sequence = Sequence(name="00", group="00", evaluate={
             "kitti_calib": "{data}/calib.txt", "times": "{data}/times.txt"})
         places = Places(self.folder, self.folder / "data", self.folder)
-        flags = plan.evaluation_flags(places, sequence)
+        flags = plan.evaluation_flags(places, None, sequence)[0]
         self.assertEqual(flags["times"], str(self.folder / "data" / "times.txt"))
         pose = np.array(flags["T_body_truth"].split(","), dtype=float).reshape(3, 4)
         # A point 1 m ahead of the camera lies ahead of the LiDAR: x is its way forward.

@@ -51,6 +51,30 @@ class SuiteTest(FolderTest):
         self.assertEqual(suite.sequences[0].recording, ("kitti/00",))
         self.assertEqual(suite.sequences[0].truth, "poses/00.txt")
 
+    def test_the_name_of_a_sequence_is_filled_into_its_topics(self):
+        suite = self.read("defaults: {topics: ['/{name}/points']}\nsequences:\n"
+                          "  - {name: front, recording: a.bag}\nconfigurations:\n  - name: plain\n")
+        self.assertEqual(suite.sequences[0].topics, ("/front/points",))
+
+    def test_keys_without_effect_are_refused(self):
+        end = "configurations:\n  - name: plain\n"
+        for key in ("seeds: [1, 2]", "duration_s: 3", "parameters: {a.b: 1}"):
+            self.refuse(f"sequences:\n  - name: a\n    recording: a.bag\n    {key}\n{end}",
+                        "small.yaml:4", "is not simulated", key.partition(":")[0])
+        self.refuse(f"sequences:\n  - name: a\n    recording: a.bag\n    duration_s: 3\n{end}",
+                    "set input.duration_s")
+        for key in ("recording: a.bag", "truth: a.tum", "topics: [/a]"):
+            self.refuse(f"sequences:\n  - simulate: hall_os1_16\n    {key}\n{end}",
+                        "small.yaml:3", "is simulated", key.partition(":")[0])
+        # Defaults are for sequences of both kinds.
+        self.read("defaults: {seeds: [1, 2], truth: '{name}.tum'}\nsequences:\n"
+                  f"  - simulate: hall_os1_16\n  - {{name: a, recording: a.bag}}\n{end}")
+
+    def test_folders_of_the_batch_are_no_names(self):
+        for name in ("recordings", "truth", "replaced", "slurm"):
+            self.refuse(f"sequences:\n  - simulate: hall_os1_16\nconfigurations:\n  - name: {name}\n",
+                        f"the batch has a folder {name} of its own")
+
     def test_a_configuration_can_be_for_some_sequences_only(self):
         suite = self.read(SMALL.replace("    seeds", "  - simulate: hall_os1_16x2\n    seeds")
                           + "    only: '*x2'\n")
@@ -94,6 +118,9 @@ class SuiteTest(FolderTest):
 
     def test_a_key_that_stands_there_twice_is_refused(self):
         self.refuse(SMALL + "configurations: []\n", "small.yaml:8", "appears twice")
+
+    def test_merge_keys_are_refused_in_words(self):
+        self.refuse("a: &a {b: 1}\nc: {<<: *a}\n", "small.yaml:2", "merge keys")
 
     def test_a_seed_of_zero_is_refused_because_the_simulator_reads_it_as_none(self):
         self.refuse(SMALL.replace("[1, 2]", "[0]"), "seed", "from 1 on")

@@ -237,6 +237,12 @@ class SuiteTableTest(unittest.TestCase):
         self.assertEqual([line.cells[0].text for line in table.lines], ["0.12", "2.00"])
         self.assertFalse(any(line.cells[0].best for line in table.lines))
 
+    def test_an_average_has_the_marks_of_what_it_is_the_mean_of(self):
+        suite = make_suite(groups=("a", "b"), average=True)
+        rows = [row("ours", "a", 0.1), {**row("ours", "b", 0.3), "exit_code": 3,
+                                        "evaluation_warnings": "another clock"}]
+        self.assertEqual(tables.suite_table(suite, rows).lines[0].cells[-1].text, "0.2000 ! ?")
+
     def test_an_average_over_what_did_not_fail_says_so_and_is_not_the_best(self):
         suite = make_suite(configurations=("ours", "theirs"), groups=("a", "b"), average=True)
         rows = [row("ours", "a", 0.1), row("ours", "b", None, "x"),
