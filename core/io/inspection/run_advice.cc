@@ -75,11 +75,28 @@ bool IsLikeVelodyne(const CloudInspection& cloud) {
          (!cloud.points.rings || cloud.points.rings->highest < kMostLasers);
 }
 
+std::string Lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Hesai's driver gives `timestamp` in seconds, but so do those of others (RoboSense): its topics
+/// or frames must say whose it is, as "/hesai/pandar" and "PandarXT-32" do.
+bool IsLikeHesai(const CloudInspection& cloud) {
+  if (!HasField(cloud, "timestamp", "float64")) return false;
+  std::vector<std::string> names = cloud.frame_ids;
+  names.push_back(cloud.topic);
+  return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+    const std::string lower = Lower(name);
+    return Contains(lower, "hesai") || Contains(lower, "pandar");
+  });
+}
+
 /// The config of a LiDAR, by what writes such points; empty if nothing is typical.
 std::string ConfigOf(const CloudInspection& cloud) {
   if (IsLikeKitti(cloud)) return "kitti";
   if (HasField(cloud, "offset_time", "") || Contains(cloud.topic, "livox")) return "livox";
-  if (HasField(cloud, "timestamp", "float64")) return "hesai";
+  if (IsLikeHesai(cloud)) return "hesai";
   if (Contains(cloud.type, "packets")) return Contains(cloud.type, "OS-") ? "ouster" : "velodyne";
   if (HasField(cloud, "t", "uint32") && HasField(cloud, "reflectivity", "")) return "ouster";
   if (IsLikeVelodyne(cloud)) return "velodyne";
@@ -177,6 +194,19 @@ void AddTimeRemarks(const CloudInspection& cloud, const std::string& config, Run
   }
 }
 
+/// Where a sensor is known by its fields and names alone, its model and its carrier are not.
+void AddSensorRemarks(const CloudInspection& cloud, const std::string& config, RunAdvice* advice) {
+  if (config == "velodyne" && !Contains(cloud.type, "packets")) {
+    advice->remarks.emplace_back(
+        "the fields are named as by Velodyne's drivers; the configuration keeps to the ranges of a "
+        "VLP-16 or HDL-32E, so leave out -c velodyne if it is another LiDAR");
+  } else if (config == "hesai") {
+    advice->remarks.emplace_back(
+        "the configuration keeps to the ranges of a hand-held XT-32 or Pandar, so leave out -c "
+        "hesai if the LiDAR sees farther, or is on a car");
+  }
+}
+
 bool IsInFixedFrame(const CloudInspection& cloud) {
   return std::any_of(cloud.frame_ids.begin(), cloud.frame_ids.end(),
                      [](const std::string& frame_id) { return !DoubtOfFrame(frame_id).empty(); });
@@ -253,11 +283,7 @@ RunAdvice AdviseRun(const RecordingInspection& recording) {
   } else {
     AddSameFrameRemarks(clouds, &advice);
   }
-  if (advice.config == "velodyne" && !Contains(clouds.front().type, "packets")) {
-    advice.remarks.emplace_back(
-        "the fields are named as by Velodyne's drivers; the configuration keeps to the ranges of a "
-        "VLP-16 or HDL-32E, so leave out -c velodyne if it is another LiDAR");
-  }
+  AddSensorRemarks(clouds.front(), advice.config, &advice);
   for (const CloudInspection& cloud : clouds) AddTimeRemarks(cloud, advice.config, &advice);
   return advice;
 }

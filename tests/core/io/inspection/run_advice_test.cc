@@ -26,9 +26,29 @@ TEST(AdviseRun, TellsTheSensorByItsFields) {
     return AdviseRun(Recording({Cloud("/points", std::move(fields))})).config;
   };
   EXPECT_EQ(config({{"t", "uint32", 20}, {"reflectivity", "uint16", 24}}), "ouster");
-  EXPECT_EQ(config({{"timestamp", "float64", 16}}), "hesai");
   EXPECT_EQ(config({{"offset_time", "uint32", 0}}), "livox");
   EXPECT_EQ(config({{"x", "float32", 0}}), "");
+}
+
+TEST(AdviseRun, TakesALidarForAHesaiWhereANameSaysSo) {
+  // RoboSense's driver writes the same fields as Hesai's.
+  CloudInspection cloud =
+      Cloud("/rslidar_points", {{"ring", "uint16", 16}, {"timestamp", "float64", 18}});
+  cloud.frame_ids = {"rslidar"};
+  const RunAdvice other = AdviseRun(Recording({cloud}));
+  EXPECT_EQ(other.config, "");
+  EXPECT_THAT(other.command, Not(HasSubstr(" -c ")));
+  for (const auto& [topic, frame] : {std::pair{"/hesai/pandar", ""},
+                                     {"/lidar_points", "hesai_lidar"},
+                                     {"/lidar_points", "PandarXT-32"}}) {
+    cloud.topic = topic;
+    cloud.frame_ids = {frame};
+    const RunAdvice advice = AdviseRun(Recording({cloud}));
+    EXPECT_EQ(advice.config, "hesai") << topic << frame;
+    EXPECT_THAT(advice.remarks, Contains(HasSubstr("leave out -c hesai if")));
+  }
+  cloud.fields.pop_back();
+  EXPECT_EQ(AdviseRun(Recording({cloud})).config, "") << "not as its driver writes points";
 }
 
 /// A cloud with the fields that Velodyne's drivers write, `time` in seconds within the sweep.
