@@ -7,6 +7,7 @@
 #include "core/io/number_text.h"
 #include "core/io/random_access_file.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -57,7 +58,7 @@ double CsvTable::Number(std::size_t row, std::size_t column) const {
 }
 
 std::int64_t CsvTable::SecondsAsNs(std::size_t row, std::size_t column) const {
-  const auto t_ns = ParseDecimalNs(Text(row, column), 1'000'000'000);
+  const auto t_ns = ParseDecimalNs(Text(row, column), kNsPerSecond);
   if (!t_ns) Fail(row, column);
   return *t_ns;
 }

@@ -10,6 +10,7 @@
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_reader.h"
 #include "core/report/result_folder.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -31,7 +32,7 @@ void TakeSummary(const fs::path& path, RunResult* result) {
     }
     const Json& lost_at_s = json.at("result").at("lost_at_s");
     if (lost_at_s.is_string()) {
-      result->lost_at_ns = ParseDecimalNs(lost_at_s.get<std::string>(), 1'000'000'000);
+      result->lost_at_ns = ParseDecimalNs(lost_at_s.get<std::string>(), kNsPerSecond);
     }
   } catch (const Json::exception& error) {
     throw InputError(path, std::string("this is not the summary of a run: ") + error.what(),

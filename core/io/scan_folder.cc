@@ -89,7 +89,7 @@ void ScanFolder::SetRegularStamps() {
   }
   stamps_.t_ns.resize(listing_.files.size());
   for (std::size_t i = 0; i < stamps_.t_ns.size(); ++i) {
-    stamps_.t_ns[i] = std::llround(1e9 * period_s * static_cast<double>(i));
+    stamps_.t_ns[i] = Nanoseconds(period_s * static_cast<double>(i));
   }
   stamps_.source =
       "none found, so a scan every " + Milliseconds(Nanoseconds(period_s)) + " from 0 s is assumed";

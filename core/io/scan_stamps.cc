@@ -28,7 +28,6 @@ namespace fs = std::filesystem;
 constexpr const char* kStampFiles[] = {"timestamps.txt", "times.txt", "stamps.txt",
                                        "timestamp.txt"};
 constexpr const char* kRecordTimesFiles[] = {"record_times.txt"};
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 ScanStamps StampsOfNames(ScanListing* listing) {
   std::vector<std::pair<std::int64_t, fs::path>> stamped;

@@ -7,11 +7,10 @@
 #include <string_view>
 
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
-
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 /// The last run of digits of a name, with one '.' or '_' between digits: "cloud_12_034" ->
 /// "12_034".

@@ -6,6 +6,8 @@
 #include <ctime>
 #include <limits>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 namespace {
 
@@ -106,7 +108,7 @@ std::optional<std::int64_t> ParseDateTimeNs(std::string_view text) {
       hour < 0 || hour > 23 || minute < 0 || minute > 59 || !IsDigit(text[17])) {
     return {};
   }
-  const auto seconds_ns = ParseDecimalNs(text.substr(17), 1'000'000'000);
+  const auto seconds_ns = ParseDecimalNs(text.substr(17), kNsPerSecond);
   if (!seconds_ns || *seconds_ns > 61'000'000'000) return {};
   std::tm date{};
   date.tm_year = year - 1900;
@@ -114,14 +116,14 @@ std::optional<std::int64_t> ParseDateTimeNs(std::string_view text) {
   date.tm_mday = day;
   date.tm_hour = hour;
   date.tm_min = minute;
-  return std::int64_t{::timegm(&date)} * 1'000'000'000 + *seconds_ns;
+  return std::int64_t{::timegm(&date)} * kNsPerSecond + *seconds_ns;
 }
 
 std::optional<std::int64_t> UnitOfWholeStampNs(std::string_view digits) {
   if (digits.size() == 18 || digits.size() == 19) return 1;
   if (digits.size() == 15 || digits.size() == 16) return 1'000;
   if (digits.size() == 12 || digits.size() == 13) return 1'000'000;
-  if (digits.size() <= 10) return 1'000'000'000;
+  if (digits.size() <= 10) return kNsPerSecond;
   return {};
 }
 
@@ -129,8 +131,8 @@ std::string FormatSeconds(std::int64_t t_ns) {
   // Unsigned, because the smallest int64 has no positive counterpart.
   const std::uint64_t magnitude =
       t_ns < 0 ? 0 - static_cast<std::uint64_t>(t_ns) : static_cast<std::uint64_t>(t_ns);
-  const std::string fraction = std::to_string(magnitude % 1'000'000'000);
-  return (t_ns < 0 ? "-" : "") + std::to_string(magnitude / 1'000'000'000) + "." +
+  const std::string fraction = std::to_string(magnitude % kNsPerSecond);
+  return (t_ns < 0 ? "-" : "") + std::to_string(magnitude / kNsPerSecond) + "." +
          std::string(9 - fraction.size(), '0') + fraction;
 }
 

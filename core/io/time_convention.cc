@@ -9,6 +9,7 @@
 #include "core/io/scan_stamps.h"
 #include "core/io/stamp_end.h"
 #include "core/scans/median.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -65,7 +66,7 @@ TimeUnit DeduceUnit(const TimeEvidence& evidence, const Summary& summary) {
   const double longest_s = 100.0 * shortest_s;
   std::string readings;
   for (const TimeUnit unit : kUnits) {
-    const double span_s = summary.span * 1e-9 * static_cast<double>(NanosecondsPer(unit));
+    const double span_s = summary.span * Seconds(NanosecondsPer(unit));
     if (span_s >= shortest_s && span_s <= longest_s) return unit;
     readings += (readings.empty() ? "" : ", ") + Number(span_s) + " s if in " + NameOf(unit);
   }
@@ -96,7 +97,7 @@ std::string DoubtOfUnit(const TimeEvidence& evidence, TimeUnit unit, double span
 /// True if zero lies within the sweep or close to one of its ends. Where a part of the sweep has no
 /// returns, the period tells how long it is.
 bool IsRelative(const TimeEvidence& evidence, TimeUnit unit, double seen) {
-  const double period = evidence.period_s * 1e9 / static_cast<double>(NanosecondsPer(unit));
+  const double period = evidence.period_s / Seconds(NanosecondsPer(unit));
   const double span = std::max(seen, period);
   const std::vector<TimeSample>& samples = evidence.samples;
   const auto broken = std::count_if(samples.begin(), samples.end(), [&](const TimeSample& sample) {
@@ -131,7 +132,7 @@ void DescribeDistance(double stamp_after_first_s, double stamp_after_last_s,
                             " the last";
   found->evidence += "; the times are absolute, " + where;
   const double nearest_s = std::min(std::abs(stamp_after_first_s), std::abs(stamp_after_last_s));
-  if (nearest_s < kFewSweeps * 1e-9 * static_cast<double>(found->sweep_ns)) return;
+  if (nearest_s < kFewSweeps * Seconds(found->sweep_ns)) return;
   found->doubt = where +
                  ", more than a few sweeps can explain; the result has the times of the points "
                  "(input.clock_offset_s moves them)";
@@ -184,7 +185,7 @@ void CompareClocks(const TimeEvidence& evidence, const Summary& summary, TimeCon
   found->clock_offset_ns =
       static_cast<std::int64_t>(stamp_is_last ? after_last_ns : after_first_ns);
   found->evidence += "; the times are of another clock than the stamps, " +
-                     Number(static_cast<double>(found->clock_offset_ns) * 1e-9) +
+                     Number(Seconds(found->clock_offset_ns)) +
                      " s are added so that the stamp marks the " +
                      (stamp_is_last ? "last" : "first") + " point";
 }
@@ -234,11 +235,11 @@ TimeConvention DeduceTimeConvention(const TimeEvidence& evidence, const TimeOpti
   found.field = evidence.field;
   found.unit = options.unit == TimeUnit::kAuto ? DeduceUnit(evidence, summary) : options.unit;
   found.stamp_at = options.stamp_at;
-  const double span_s = summary.span * 1e-9 * static_cast<double>(NanosecondsPer(found.unit));
+  const double span_s = summary.span * Seconds(NanosecondsPer(found.unit));
   // A scan's span misses its last firing and a gap hides its period: take the period if they agree.
   const bool period_fits = std::abs(span_s - evidence.period_s) < 0.15 * span_s;
   const double sweep_s = period_fits ? evidence.period_s : span_s;
-  found.sweep_ns = std::llround(1e9 * std::min(sweep_s, kLongestSweep));
+  found.sweep_ns = Nanoseconds(std::min(sweep_s, kLongestSweep));
   found.evidence = Describe(evidence, summary) + "; in " + NameOf(found.unit) + " a sweep takes " +
                    Number(span_s) + " s";
   if (options.origin != TimeOrigin::kAuto) {

@@ -14,11 +14,11 @@
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_reader.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
 // A file full of the same defect is described by its first lines.
 constexpr std::size_t kWarningsPerFile = 3;
 
@@ -72,7 +72,7 @@ void CheckStampUnit(const std::filesystem::path& path, std::string_view text) {
   std::string_view line;
   if (!lines.Next(&line)) return;
   const std::string_view stamp = TakeWord(&line);
-  if (!AllDigits(stamp.substr(0, stamp.find('.'))) || ParseDecimalNs(stamp, kSecondNs)) return;
+  if (!AllDigits(stamp.substr(0, stamp.find('.'))) || ParseDecimalNs(stamp, kNsPerSecond)) return;
   throw InputError(path,
                    "the stamp " + std::string(stamp) + " of line " +
                        std::to_string(lines.number()) + " would be in the far future",

@@ -12,6 +12,7 @@
 #include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -35,7 +36,7 @@ LineKind ParseLine(std::string_view line, std::size_t columns, StampedPose* pose
   for (std::size_t i = 0; i + 1 < columns; ++i) {
     if (!ParseNumber(TakeWord(&line), &values[i])) return LineKind::kMalformed;
   }
-  const auto t_ns = ParseDecimalNs(stamp, 1'000'000'000);
+  const auto t_ns = ParseDecimalNs(stamp, kNsPerSecond);
   double stamp_number = 0.0;
   if (!t_ns) return ParseNumber(stamp, &stamp_number) ? LineKind::kUnusable : LineKind::kMalformed;
 

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <map>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 /// What less data takes says nothing of a second.
-constexpr std::int64_t kShortest_ns = kSecond / 2;
+constexpr std::int64_t kShortest_ns = kNsPerSecond / 2;
 
 }  // namespace
 
@@ -32,17 +33,19 @@ ProcessingTime::Quantiles ProcessingTime::PerSecondOfData(std::int64_t end_ns) c
   const std::int64_t begin_ns = samples_.front().t_ns;
   const std::int64_t duration_ns = end_ns - begin_ns;
   if (duration_ns < kShortest_ns) return {};
-  const std::int64_t bins = std::max<std::int64_t>((duration_ns + kSecond / 2) / kSecond, 1);
+  const std::int64_t bins =
+      std::max<std::int64_t>((duration_ns + kNsPerSecond / 2) / kNsPerSecond, 1);
   // A map, as a recording with a pause of years has years of empty seconds: they count as nothing.
   std::map<std::int64_t, double> milliseconds;
   for (const Sample& sample : samples_) {
-    const std::int64_t bin = (sample.t_ns - begin_ns) / kSecond;
+    const std::int64_t bin = (sample.t_ns - begin_ns) / kNsPerSecond;
     milliseconds[std::clamp<std::int64_t>(bin, 0, bins - 1)] += sample.milliseconds;
   }
   std::vector<double> values;
   for (const auto& [bin, spent] : milliseconds) {
-    const std::int64_t length_ns = bin < bins - 1 ? kSecond : duration_ns - (bins - 1) * kSecond;
-    values.push_back(spent * static_cast<double>(kSecond) / static_cast<double>(length_ns));
+    const std::int64_t length_ns =
+        bin < bins - 1 ? kNsPerSecond : duration_ns - (bins - 1) * kNsPerSecond;
+    values.push_back(spent * static_cast<double>(kNsPerSecond) / static_cast<double>(length_ns));
   }
   return {Quantile(values, 0.5), Quantile(values, 0.95)};
 }

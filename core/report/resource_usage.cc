@@ -5,6 +5,8 @@
 
 #include <ctime>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 
 double PeakMemoryMegabytes() {
@@ -16,7 +18,7 @@ double PeakMemoryMegabytes() {
 double ProcessCpuSeconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  return static_cast<double>(now.tv_sec) + Seconds(now.tv_nsec);
 }
 
 }  // namespace trajlo

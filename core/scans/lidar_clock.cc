@@ -3,25 +3,28 @@
 
 #include <algorithm>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 /// Recorders write at once, or a little later when they are busy.
-constexpr std::int64_t kDelayTolerance_ns = kSecond;
+constexpr std::int64_t kDelayTolerance_ns = kNsPerSecond;
 /// Closer than this, a time of recording is a copy of the stamp: no recorder is so fast.
 constexpr std::int64_t kCopy_ns = 20'000;
 /// Until this many steps are known, the guess at the start holds.
 constexpr std::size_t kStepsForPeriod = 5;
 constexpr std::size_t kRemembered = 16;
 /// A LiDAR that is slower is none.
-constexpr std::int64_t kLongestPeriod_ns = 10 * kSecond;
+constexpr std::int64_t kLongestPeriod_ns = 10 * kNsPerSecond;
 
 }  // namespace
 
-std::int64_t LidarClock::longest_step_ns() const { return std::max(kSecond, 3 * period_ns_); }
+std::int64_t LidarClock::longest_step_ns() const { return std::max(kNsPerSecond, 3 * period_ns_); }
 
-std::int64_t LidarClock::usual_span_ns() const { return period_ns_ > 0 ? 2 * period_ns_ : kSecond; }
+std::int64_t LidarClock::usual_span_ns() const {
+  return period_ns_ > 0 ? 2 * period_ns_ : kNsPerSecond;
+}
 
 ScanPlace LidarClock::PlaceOf(const LidarScan& scan, const ScanTimes& times) const {
   return {Sum(times.begin_ns, offset_ns_), Sum(scan.stamp_ns, offset_ns_)};

@@ -7,6 +7,8 @@
 
 namespace trajlo {
 
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
 inline double Seconds(std::int64_t t_ns) { return 1e-9 * static_cast<double>(t_ns); }
 
 /// Rounded; beyond 100 years (also infinity) it is 100 years, so that sums do not overflow.

@@ -57,7 +57,7 @@ std::string LidarName(std::size_t lidar) { return "lidar " + std::to_string(lida
 }  // namespace
 
 ScanSequencer::ScanSequencer(double max_lag_s, HandOn hand_on)
-    : max_lag_ns_(std::llround(max_lag_s * 1e9)), hand_on_(std::move(hand_on)) {}
+    : max_lag_ns_(Nanoseconds(max_lag_s)), hand_on_(std::move(hand_on)) {}
 
 void ScanSequencer::Add(const LidarScan& scan) {
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);

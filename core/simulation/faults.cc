@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/simulation/faults.h"
 
-#include <cmath>
 #include <limits>
 
+#include "core/scans/nanoseconds.h"
 #include "core/simulation/random/counter_random.h"
 
 namespace trajlo::simulation {
 
-namespace {
-
-std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
-
-}  // namespace
+namespace {}  // namespace
 
 bool FaultInjector::Apply(SimulatedScan* simulated) {
   LidarScan& scan = simulated->scan;
@@ -26,8 +22,8 @@ bool FaultInjector::Apply(SimulatedScan* simulated) {
 
   const std::int64_t true_start_ns = simulated->true_start_ns;
   const bool silent = scan.lidar_id == config_.silent_lidar &&
-                      true_start_ns >= start_ns_ + ToNs(config_.silent_from_s) &&
-                      true_start_ns < start_ns_ + ToNs(config_.silent_until_s);
+                      true_start_ns >= start_ns_ + Nanoseconds(config_.silent_from_s) &&
+                      true_start_ns < start_ns_ + Nanoseconds(config_.silent_until_s);
   const bool paused = IsWithin(true_start_ns, config_.pause_from_s, config_.pause_s);
   if (drop || silent || paused) return false;
 
@@ -37,13 +33,13 @@ bool FaultInjector::Apply(SimulatedScan* simulated) {
     point.xyz_m *= static_cast<float>(config_.cover_m) / point.xyz_m.norm();
   }
 
-  std::int64_t shift_ns = ToNs(jitter_s);
+  std::int64_t shift_ns = Nanoseconds(jitter_s);
   const std::int64_t end_ns = config_.end_of_sweep_stamps ? simulated->period_ns : 0;
   const auto previous = previous_stamp_ns_.find(scan.lidar_id);
   if (previous != previous_stamp_ns_.end()) {
     const std::int64_t to_previous_ns = previous->second - (scan.stamp_ns + end_ns);
     if (duplicate) shift_ns = to_previous_ns;
-    if (backward) shift_ns = to_previous_ns - ToNs(config_.backward_step_s);
+    if (backward) shift_ns = to_previous_ns - Nanoseconds(config_.backward_step_s);
   }
   scan.stamp_ns += end_ns + shift_ns;
   simulated->sweep_start_ns += shift_ns;
@@ -60,7 +56,8 @@ bool FaultInjector::Apply(SimulatedScan* simulated) {
 }
 
 bool FaultInjector::IsWithin(std::int64_t true_ns, double from_s, double duration_s) const {
-  return true_ns >= start_ns_ + ToNs(from_s) && true_ns < start_ns_ + ToNs(from_s + duration_s);
+  return true_ns >= start_ns_ + Nanoseconds(from_s) &&
+         true_ns < start_ns_ + Nanoseconds(from_s + duration_s);
 }
 
 bool FaultInjector::Repeats(const SimulatedScan& simulated) const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "core/scans/nanoseconds.h"
@@ -12,8 +11,7 @@ namespace trajlo::simulation {
 /// and our PCD files have it, and read back to whole ns. Within a sweep of 0.1 s it is 4 ns off at
 /// most; so all forms of a recording hold the same times.
 inline std::int64_t StorableOffsetNs(std::int64_t offset_ns) {
-  const auto seconds = static_cast<float>(Seconds(offset_ns));
-  return std::llround(1e9 * static_cast<double>(seconds));
+  return Nanoseconds(static_cast<double>(static_cast<float>(Seconds(offset_ns))));
 }
 
 }  // namespace trajlo::simulation

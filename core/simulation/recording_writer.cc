@@ -2,7 +2,6 @@
 #include "core/simulation/recording_writer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -156,7 +155,7 @@ void RecordingWriter::WriteStamps() const {
 
 void RecordingWriter::WriteKittiTables(const Stream& stream, int lidar_id) const {
   const LidarConfig& lidar = simulator_.scenario().rig[static_cast<std::size_t>(lidar_id)];
-  const std::int64_t clock_offset_ns = std::llround(lidar.clock_offset_s * 1e9);
+  const std::int64_t clock_offset_ns = Nanoseconds(lidar.clock_offset_s);
   std::string times;
   std::string poses;
   SE3 T_first_world;

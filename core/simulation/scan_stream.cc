@@ -5,9 +5,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
+
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo::simulation {
 
@@ -19,7 +20,7 @@ ScanStream::ScanStream(const Simulator& simulator, int threads)
   for (int id = 0; id < static_cast<int>(scenario.rig.size()); ++id) {
     const LidarConfig& lidar = scenario.rig[static_cast<std::size_t>(id)];
     const std::int64_t period_ns = MakeSensor(lidar.sensor, lidar.columns).pattern->period_ns();
-    const std::int64_t phase_ns = std::llround(lidar.phase_s * 1e9);
+    const std::int64_t phase_ns = Nanoseconds(lidar.phase_s);
     for (std::int64_t i = 0; i < simulator.ScanCount(id); ++i) {
       sweeps_.push_back({phase_ns + (i + 1) * period_ns, id, i});
     }

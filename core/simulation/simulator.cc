@@ -24,8 +24,6 @@ namespace {
 /// A fixed number, so that the cut into tasks does not depend on the threads.
 constexpr int kFiringsPerTask = 2048;
 
-std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
-
 /// What comes back of a beam that has a width: of two rays in it, of which each has a random share
 /// of the light. Two surfaces that are near each other return one pulse, in between.
 std::optional<RayHit> CastBeam(const Scene& scene, const Vector3d& origin, const Vector3d& middle,
@@ -83,7 +81,7 @@ Simulator::Simulator(const Scenario& scenario, Scene scene, PoseFunction T_world
       scene_(std::move(scene)),
       T_world_body_(std::move(T_world_body)),
       start_ns_(scenario.start_time_ns),
-      end_ns_(start_ns_ + ToNs(scenario.duration_s)) {
+      end_ns_(start_ns_ + Nanoseconds(scenario.duration_s)) {
   if (scenario.rig.empty()) throw std::invalid_argument("the rig has no LiDAR");
   if (!(scenario.duration_s > 0.0)) throw std::invalid_argument("the duration must be positive");
   for (const LidarConfig& lidar : scenario.rig) {
@@ -100,7 +98,7 @@ SE3 Simulator::TrueWorldFromBody(std::int64_t t_ns) const {
 
 std::int64_t Simulator::ScanCount(int lidar_id) const {
   const auto id = static_cast<std::size_t>(lidar_id);
-  const std::int64_t available_ns = end_ns_ - start_ns_ - ToNs(scenario_.rig[id].phase_s);
+  const std::int64_t available_ns = end_ns_ - start_ns_ - Nanoseconds(scenario_.rig[id].phase_s);
   return std::max<std::int64_t>(0, available_ns / sensors_[id].pattern->period_ns());
 }
 
@@ -111,8 +109,9 @@ SimulatedScan Simulator::SimulateScan(int lidar_id, std::int64_t index) const {
   simulated.index = index;
   simulated.period_ns = pattern.period_ns();
   simulated.true_start_ns =
-      start_ns_ + ToNs(scenario_.rig[id].phase_s) + index * pattern.period_ns();
-  simulated.sweep_start_ns = simulated.true_start_ns + ToNs(scenario_.rig[id].clock_offset_s);
+      start_ns_ + Nanoseconds(scenario_.rig[id].phase_s) + index * pattern.period_ns();
+  simulated.sweep_start_ns =
+      simulated.true_start_ns + Nanoseconds(scenario_.rig[id].clock_offset_s);
   simulated.scan.lidar_id = lidar_id;
   simulated.scan.stamp_ns = simulated.sweep_start_ns;
 
@@ -145,8 +144,8 @@ void Simulator::CastFirings(int lidar_id, std::int64_t index, int first, int las
   const ScanPattern& pattern = *sensors_[id].pattern;
   const MeasurementModel& model = lidar.measurement;
   const std::vector<LaserError>& errors = laser_errors_[id];
-  const std::int64_t begin_ns = ToNs(lidar.phase_s) + index * pattern.period_ns();
-  const std::int64_t stamp_ns = start_ns_ + begin_ns + ToNs(lidar.clock_offset_s);
+  const std::int64_t begin_ns = Nanoseconds(lidar.phase_s) + index * pattern.period_ns();
+  const std::int64_t stamp_ns = start_ns_ + begin_ns + Nanoseconds(lidar.clock_offset_s);
   std::int64_t pose_offset_ns = -1;
   double t_s = 0.0;
   SE3 T_world_lidar;

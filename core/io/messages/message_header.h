@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/io/messages/wire_reader.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 
@@ -23,7 +24,7 @@ inline MessageHeader ReadMessageHeader(WireReader* reader) {
   const std::int64_t seconds = reader->is_cdr() ? std::int64_t{reader->Read<std::int32_t>()}
                                                 : std::int64_t{reader->Read<std::uint32_t>()};
   const auto nanoseconds = reader->Read<std::uint32_t>();
-  header.stamp_ns = seconds * 1'000'000'000 + nanoseconds;
+  header.stamp_ns = seconds * kNsPerSecond + nanoseconds;
   header.frame_id = reader->ReadString();
   return header;
 }

@@ -174,14 +174,13 @@ void CheckSeconds(std::int64_t seconds, const MessageHeader& header, bool is_ros
 
 void PutHeader(const MessageHeader& header, WireWriter* out) {
   // Nanoseconds are unsigned: -0.3 s is -1 s and 700,000,000 ns.
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  const std::int64_t beyond_ns = header.stamp_ns % kSecond;
+  const std::int64_t beyond_ns = header.stamp_ns % kNsPerSecond;
   const bool is_below = beyond_ns < 0;
-  const std::int64_t seconds = header.stamp_ns / kSecond - (is_below ? 1 : 0);
+  const std::int64_t seconds = header.stamp_ns / kNsPerSecond - (is_below ? 1 : 0);
   CheckSeconds(seconds, header, out->is_cdr());
   if (!out->is_cdr()) out->Put(header.seq);
   out->Put(static_cast<std::uint32_t>(seconds));
-  out->Put(static_cast<std::uint32_t>(beyond_ns + (is_below ? kSecond : 0)));
+  out->Put(static_cast<std::uint32_t>(beyond_ns + (is_below ? kNsPerSecond : 0)));
   out->PutString(header.frame_id);
 }
 

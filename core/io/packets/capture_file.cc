@@ -13,6 +13,7 @@
 #include "core/io/packets/ip_packet.h"
 #include "core/io/packets/velodyne_packet.h"
 #include "core/io/velodyne_payloads.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -24,7 +25,7 @@ constexpr std::int64_t kLatestS = 0xffffffff;
 std::int64_t CapturedNs(const pcap_pkthdr& header) {
   const std::int64_t seconds = std::clamp<std::int64_t>(header.ts.tv_sec, 0, kLatestS);
   const std::int64_t ns = std::clamp<std::int64_t>(header.ts.tv_usec, 0, 999'999'999);
-  return seconds * 1'000'000'000 + ns;
+  return seconds * kNsPerSecond + ns;
 }
 
 }  // namespace

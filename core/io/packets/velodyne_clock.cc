@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/scans/nanoseconds.h"
+
 namespace trajlo {
 namespace {
 
@@ -87,7 +89,7 @@ std::optional<std::int64_t> GprmcTimeNs(const std::uint8_t* data, std::size_t si
                          utc.tm_mday >= 1 && utc.tm_mday <= 31 && utc.tm_mon >= 0 &&
                          utc.tm_mon < 12 && year >= 0;
   if (!plausible) return {};
-  return static_cast<std::int64_t>(timegm(&utc)) * 1'000'000'000;
+  return static_cast<std::int64_t>(timegm(&utc)) * kNsPerSecond;
 }
 
 }  // namespace trajlo

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/io/random_access_file.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo::ros1 {
 
@@ -52,7 +53,7 @@ class Fields {
 
 /// A stamp as the format stores it: seconds in the low, nanoseconds in the high half.
 inline std::int64_t TimeNs(std::uint64_t stamp) {
-  return static_cast<std::int64_t>(stamp & 0xffffffffU) * 1'000'000'000 +
+  return static_cast<std::int64_t>(stamp & 0xffffffffU) * kNsPerSecond +
          static_cast<std::int64_t>(stamp >> 32U);
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/io/errors.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -24,9 +25,8 @@ std::string Bytes(T number) {
 }
 
 std::string StampBytes(std::int64_t t_ns) {
-  constexpr std::int64_t kSecond = 1'000'000'000;
-  return Bytes(static_cast<std::uint32_t>(t_ns / kSecond)) +
-         Bytes(static_cast<std::uint32_t>(t_ns % kSecond));
+  return Bytes(static_cast<std::uint32_t>(t_ns / kNsPerSecond)) +
+         Bytes(static_cast<std::uint32_t>(t_ns % kNsPerSecond));
 }
 
 std::string Block(std::string_view bytes) {
@@ -81,7 +81,7 @@ void Ros1BagWriter::Write(const ros1::Connection& publisher, std::int64_t record
 void Ros1BagWriter::Write(const std::string& topic, const std::string& header,
                           std::int64_t recorded_ns, std::string_view message) {
   if (!file_) throw OutputError(path_, "writing after Close");
-  constexpr std::int64_t kEndOfTime_ns = (std::int64_t{1} << 32U) * 1'000'000'000;
+  constexpr std::int64_t kEndOfTime_ns = (std::int64_t{1} << 32U) * kNsPerSecond;
   if (recorded_ns < 0 || recorded_ns >= kEndOfTime_ns) {
     throw OutputError(path_, "a bag cannot hold the stamp " + std::to_string(recorded_ns) + " ns");
   }

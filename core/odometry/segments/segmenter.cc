@@ -2,10 +2,11 @@
 #include "core/odometry/segments/segmenter.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "core/odometry/segments/turn_up.h"
+#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -18,9 +19,7 @@ constexpr std::int64_t kShortest_ns = 1'000'000;
 
 constexpr std::int64_t kLookEvery_ns = 2'000'000'000;
 
-std::int64_t ToNs(double seconds) { return std::llround(seconds * 1e9); }
-
-std::int64_t DurationNs(double seconds) { return std::max(ToNs(seconds), kShortest_ns); }
+std::int64_t DurationNs(double seconds) { return std::max(Nanoseconds(seconds), kShortest_ns); }
 
 std::int64_t FirstTime_ns(const LidarScan& scan) {
   std::int64_t first_ns = kForever;
@@ -34,7 +33,7 @@ Segmenter::Segmenter(const SegmenterOptions& options)
     : options_(options),
       interval_ns_(DurationNs(options.interval_s)),
       max_gap_ns_(DurationNs(options.max_gap_s)),
-      max_lag_ns_(ToNs(options.max_lag_s)),
+      max_lag_ns_(Nanoseconds(options.max_lag_s)),
       thinner_(options.map_voxel_m, options.registration_voxel_m,
                static_cast<std::size_t>(options.max_registration_points)),
       complete_until_ns_(kUnseen),
@@ -126,7 +125,7 @@ void Segmenter::AddContinuous(const LidarScan& scan) {
   if (scan.points.empty()) return;
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);
   const SE3 T_body_lidar = PoseOf(lidar);
-  const std::int64_t clock_ns = ToNs(ClockOf_s(lidar));
+  const std::int64_t clock_ns = Nanoseconds(ClockOf_s(lidar));
   const std::int64_t first_ns = FirstTime_ns(scan) + clock_ns;
   ReachTo(first_ns);
 

@@ -2,7 +2,6 @@
 #include "core/odometry/start/window_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <variant>
 #include <vector>
 
@@ -47,7 +46,7 @@ std::optional<SweepMotion> WindowSearch::Look(const Window& window, const DoubtW
   const SegmentCloud sweep = JoinSegments(clouds);
   // A scan of one time shows too little for this.
   if (sweep.map_points.empty() || clouds.back().is_instant) return std::nullopt;
-  next_look_ns_ = window.EndNs() + std::llround(1e9 * kPatience * doubt.Age_s(window.EndNs()));
+  next_look_ns_ = window.EndNs() + Nanoseconds(kPatience * doubt.Age_s(window.EndNs()));
 
   // A window that contradicts the map does not tell how the body moves, either.
   const Vector6d tau =
