@@ -38,14 +38,6 @@ std::string PositionsText(std::size_t pairs) {
          " pairs that it rests on are a single place or lie on a straight line";
 }
 
-double RootMeanSquareError(const std::vector<PosePair>& pairs, const Alignment& alignment) {
-  double sum = 0.0;
-  for (const PosePair& pair : pairs) {
-    sum += ((alignment * pair.estimate).translation() - pair.truth.translation()).squaredNorm();
-  }
-  return std::sqrt(sum / static_cast<double>(pairs.size()));
-}
-
 }  // namespace
 
 Eigen::Affine3d Alignment::operator*(const Eigen::Affine3d& pose) const {
@@ -97,7 +89,7 @@ Alignment Umeyama(const std::vector<PosePair>& pairs, bool with_scale) {
   alignment.pairs_used = pairs.size();
   // Turned by a small angle about axis i, the positions move by that times the root of this.
   const Vector3d reach = d.cwiseProduct(s);
-  const double residual = RootMeanSquareError(pairs, alignment);
+  const double residual = AlignedRmse_m(pairs, alignment);
   alignment.rotation_axes = svd.matrixU();
   for (int i = 0; i < 3; ++i) {
     alignment.rotation_sigma_rad[i] =
@@ -105,6 +97,14 @@ Alignment Umeyama(const std::vector<PosePair>& pairs, bool with_scale) {
                                       std::numeric_limits<double>::min()));
   }
   return alignment;
+}
+
+double AlignedRmse_m(const std::vector<PosePair>& pairs, const Alignment& alignment) {
+  double sum = 0.0;
+  for (const PosePair& pair : pairs) {
+    sum += ((alignment * pair.estimate).translation() - pair.truth.translation()).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
 std::optional<double> RotationSigmaDeg(const Alignment& alignment) {

@@ -58,6 +58,10 @@ struct Alignment {
 /// (a run that exploded) are left where they are, with a warning.
 Alignment Umeyama(const std::vector<PosePair>& pairs, bool with_scale);
 
+/// The root mean square of the distances between the estimate's positions, aligned, and the
+/// truth's.
+double AlignedRmse_m(const std::vector<PosePair>& pairs, const Alignment& alignment);
+
 /// The largest standard deviation of the rotation; nothing if positions do not decide it.
 std::optional<double> RotationSigmaDeg(const Alignment& alignment);
 

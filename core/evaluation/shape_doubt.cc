@@ -25,11 +25,7 @@ struct Fit {
 
 Fit FitOf(const std::vector<PosePair>& pairs, bool with_scale) {
   const Alignment alignment = Umeyama(pairs, with_scale);
-  double squares = 0.0;
-  for (const PosePair& pair : pairs) {
-    squares += ((alignment * pair.estimate).translation() - pair.truth.translation()).squaredNorm();
-  }
-  return {std::sqrt(squares / static_cast<double>(pairs.size())), alignment.scale};
+  return {AlignedRmse_m(pairs, alignment), alignment.scale};
 }
 
 /// Of the true positions about their mean.

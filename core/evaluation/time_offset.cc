@@ -43,14 +43,8 @@ Cost CostAt(double offset_s, const TimedPoses& estimate, const TimedPoses& truth
   try {
     const std::vector<PosePair> pairs =
         Associate(estimate, truth, Nanoseconds(offset_s), association);
-    const Alignment alignment = Umeyama(pairs, with_scale);
-    double squares = 0.0;
-    for (const PosePair& pair : pairs) {
-      const Eigen::Affine3d aligned = alignment * pair.estimate;
-      squares += (aligned.translation() - pair.truth.translation()).squaredNorm();
-    }
+    cost.rmse_m = AlignedRmse_m(pairs, Umeyama(pairs, with_scale));
     cost.pairs = pairs.size();
-    cost.rmse_m = std::sqrt(squares / static_cast<double>(pairs.size()));
   } catch (const EvaluationError&) {
     // Nothing overlaps or the alignment is undetermined at this offset: not a candidate.
   }
