@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/odometry/window/point_scatter.h"
+#include "core/odometry/window/rigid_motion.h"
 
 namespace trajlo {
 namespace {
@@ -23,10 +24,7 @@ struct RigidInformation {
     const SE3& newest = window.EndPose();
     for (int k = 0; k < window.size(); ++k) {
       const Segment& segment = window.At(k);
-      // A rigid motion xi of the newest frame moves T_j by Adj(T_j⁻¹ T_newest) xi.
-      Eigen::Matrix<double, 12, 6> A;
-      A << se3::Adjoint(window.Pose(k).Inverse() * newest),
-          se3::Adjoint(window.Pose(k + 1).Inverse() * newest);
+      const auto A = RigidMotionOfEnds(newest, window.Pose(k), window.Pose(k + 1));
       H += A.transpose() * segment.registration.H * A;
       const Matrix6d A_begin = A.topRows<6>();
       H -= A_begin.transpose() * segment.spurious.no_surface * A_begin;

@@ -12,6 +12,7 @@
 #include "core/odometry/segments/voxel_filter.h"
 #include "core/odometry/window/association.h"
 #include "core/odometry/window/points_to_world.h"
+#include "core/odometry/window/rigid_motion.h"
 #include "core/odometry/window/step_size.h"
 #include "factors/segment_linearizer.h"
 
@@ -166,8 +167,7 @@ class Hypothesis {
   bool Step(bool is_rigid, const RegistrationNoise& noise) {
     const RegistrationNormalEquations equations =
         LinearizeSegment(points_, T_begin_, T_end(), noise);
-    Eigen::Matrix<double, 12, 6> A;
-    A << Matrix6d::Identity(), se3::Adjoint(T_begin_end_.Inverse());
+    const auto A = RigidMotionOfEnds(SE3(), SE3(), T_begin_end_);
     information_ = A.transpose() * equations.H * A;
     Vector12d xi;
     if (is_rigid) {
