@@ -7,7 +7,8 @@
 #include <system_error>
 
 #include "core/config/config_error.h"
-#include "core/config/edit_distance.h"
+#include "core/options/did_you_mean.h"
+#include "core/options/edit_distance.h"
 
 namespace trajlo {
 namespace {
@@ -87,9 +88,8 @@ fs::path FindConfig(const std::string& word) {
     names.push_back(config.name);
   }
   if (!is_path && fs::exists(word, error)) return word;
-  std::string text = "there is no " + std::string(is_path ? "file" : "configuration") + " '" + word;
-  const std::string nearest = NearestKey(name, names);
-  text += nearest.empty() ? "'" : "'; did you mean --config=" + nearest + "?";
+  const std::string text = "there is no " + std::string(is_path ? "file" : "configuration") + " '" +
+                           word + "'" + Suggestion(NearestKey(name, names), "--config=", "");
   throw ConfigError("--config", text + "\n  trajlo_run --list_configs shows those that there are.");
 }
 

@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "apps/usage_error.h"
-#include "core/config/edit_distance.h"
+#include "core/options/did_you_mean.h"
+#include "core/options/edit_distance.h"
 
 namespace trajlo {
 namespace {
@@ -61,14 +62,13 @@ std::string ByLetter(char letter, const std::vector<std::string>& names) {
   std::string mend;
   if (const std::string negated = Negated(command, flag.name); !negated.empty()) {
     mend = flag.value ? " with a value; --" + negated + "=false, or --no" + negated + " alone"
-                      : "; did you mean --no" + negated + "?";
+                      : Suggestion(negated, "--no", "");
   } else if (flag.name.size() == 1) {
-    const std::string meant = ByLetter(flag.name[0], names);
-    if (!meant.empty()) mend = "; did you mean --" + meant + "?";
+    mend = Suggestion(ByLetter(flag.name[0], names), "--", "");
   } else if (has_options && flag.name.find('.') != std::string::npos) {
     mend = "; options are set with --set " + flag.name + "=" + flag.value.value_or("VALUE");
-  } else if (const std::string nearest = NearestKey(flag.name, names); !nearest.empty()) {
-    mend = "; did you mean --" + nearest + "?";
+  } else {
+    mend = Suggestion(NearestKey(flag.name, names), "--", "");
   }
   throw UsageError("unknown flag " + flag.shown + mend);
 }

@@ -10,13 +10,13 @@
 #include "apps/command.h"
 #include "apps/compare/compare_job.h"
 #include "apps/config_names.h"
-#include "apps/did_you_mean.h"
 #include "apps/inputs.h"
 #include "apps/interrupt.h"
 #include "apps/load_config.h"
 #include "apps/require_extrinsics.h"
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
+#include "core/options/did_you_mean.h"
 
 DEFINE_string(input, "", "the recording, as for trajlo_run");
 DEFINE_string(output, "", "the folder to write");

@@ -11,16 +11,16 @@
 #include "apps/command.h"
 #include "apps/convert/convert_job.h"
 #include "apps/convert/pose_files.h"
-#include "apps/did_you_mean.h"
 #include "apps/interrupt.h"
 #include "apps/load_config.h"
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
-#include "core/config/edit_distance.h"
 #include "core/export/run_result.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/errors.h"
 #include "core/io/recording/open_recording.h"
+#include "core/options/did_you_mean.h"
+#include "core/options/edit_distance.h"
 
 DEFINE_string(input, "", "the recording; in place of the first argument");
 DEFINE_string(output, "", "the bag, folder or file to write; in place of the last argument");
@@ -183,9 +183,8 @@ void CheckEnding(const std::filesystem::path& output, const std::vector<std::str
   }
   std::string word = ending.substr(1);
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const std::string nearest = trajlo::NearestKey(word, endings);
   throw UsageError("the output must end in " + all + ", not in " + ending +
-                   (nearest.empty() ? "" : "; did you mean ." + nearest + "?") +
+                   trajlo::Suggestion(trajlo::NearestKey(word, endings), ".", "") +
                    " (the name of a folder, if it has a dot, must end in '/')");
 }
 

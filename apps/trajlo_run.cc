@@ -10,7 +10,6 @@
 
 #include "apps/command.h"
 #include "apps/config_names.h"
-#include "apps/did_you_mean.h"
 #include "apps/inputs.h"
 #include "apps/interrupt.h"
 #include "apps/load_config.h"
@@ -19,6 +18,7 @@
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
 #include "core/io/number_text.h"
+#include "core/options/did_you_mean.h"
 
 DEFINE_string(input, "", "the recording: bag, capture or folder of scans; several with commas");
 DEFINE_string(output, "", "the folder to write");

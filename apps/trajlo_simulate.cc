@@ -17,13 +17,13 @@
 #include <vector>
 
 #include "apps/command.h"
-#include "apps/did_you_mean.h"
 #include "apps/interrupt.h"
 #include "apps/usage_error.h"
-#include "core/config/edit_distance.h"
 #include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
 #include "core/io/format_text.h"
+#include "core/options/did_you_mean.h"
+#include "core/options/edit_distance.h"
 #include "core/simulation/recording_writer.h"
 #include "core/simulation/scan_stream.h"
 #include "core/simulation/scenario.h"
@@ -122,9 +122,9 @@ std::string ScenarioName(const trajlo::CommandLine& line) {
   const std::string name = line.arguments.empty() ? FLAGS_scenario : line.arguments.front();
   const std::vector<std::string> names = trajlo::simulation::ScenarioNames();
   if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return name;
-  const std::string nearest = trajlo::NearestKey(name, names);
+  const std::string mend = trajlo::Suggestion(trajlo::NearestOrLonger(name, names));
   throw UsageError("there is no scenario '" + name + "'" +
-                   (nearest.empty() ? "; --list shows them" : "; did you mean " + nearest + "?"));
+                   (mend.empty() ? "; --list shows them" : mend));
 }
 
 void CheckNumbers() {

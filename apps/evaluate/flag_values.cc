@@ -5,10 +5,10 @@
 #include <sstream>
 #include <utility>
 
-#include "apps/did_you_mean.h"
 #include "apps/split_at_commas.h"
 #include "apps/usage_error.h"
 #include "core/io/number_text.h"
+#include "core/options/did_you_mean.h"
 
 namespace trajlo {
 namespace {

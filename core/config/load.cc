@@ -7,9 +7,10 @@
 #include <sstream>
 
 #include "core/config/config_file.h"
-#include "core/config/edit_distance.h"
 #include "core/config/option.h"
 #include "core/config/yaml_scalars.h"
+#include "core/options/did_you_mean.h"
+#include "core/options/edit_distance.h"
 
 namespace trajlo {
 namespace {
@@ -108,7 +109,7 @@ class Loader {
     const std::string section = key.substr(0, key.find('.'));
     std::string mend = "; trajlo_run --show_config and --show_expert_config list all keys";
     if (!nearest.empty()) {
-      mend = "; did you mean '" + nearest + "'?";
+      mend = Suggestion(nearest);
     } else if (IsSection(section)) {
       mend = "; '" + section + "' has the keys " + KeysOf(section);
     }

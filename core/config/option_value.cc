@@ -2,10 +2,10 @@
 // Values of options from YAML and to YAML.
 #include <algorithm>
 
-#include "core/config/edit_distance.h"
 #include "core/config/extrinsics_yaml.h"
 #include "core/config/option.h"
 #include "core/config/yaml_scalars.h"
+#include "core/options/did_you_mean.h"
 
 namespace trajlo {
 namespace {
@@ -46,9 +46,8 @@ bool ParseFlag(const YAML::Node& node) {
 std::size_t ParseChoice(const YAML::Node& node, const ChoiceField& field) {
   const auto found = std::find(field.names.begin(), field.names.end(), node.Scalar());
   if (found != field.names.end()) return static_cast<std::size_t>(found - field.names.begin());
-  const std::string nearest = NearestKey(node.Scalar(), field.names);
   throw ErrorAt(node, "must be one of " + Join(field.names) + ", found '" + node.Scalar() + "'" +
-                          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+                          DidYouMean(node.Scalar(), field.names));
 }
 
 /// The element of a list as an option of its own.

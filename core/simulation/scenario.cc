@@ -2,11 +2,11 @@
 // The list of scenarios.
 #include "core/simulation/scenario.h"
 
-#include <algorithm>
 #include <functional>
 #include <stdexcept>
 
-#include "core/config/edit_distance.h"
+#include "core/options/did_you_mean.h"
+#include "core/options/edit_distance.h"
 #include "core/simulation/scenario_parts.h"
 
 namespace trajlo::simulation {
@@ -175,19 +175,8 @@ Scenario MakeScenario(const std::string& name) {
     scenario.description = entry.description;
     return scenario;
   }
-  // A name that was cut is the beginning of the right one.
-  std::string nearest;
-  int best = static_cast<int>(name.size()) / 3 + 2;
-  for (const Entry& entry : Entries()) {
-    const std::string known = entry.name;
-    const int distance =
-        std::min(EditDistance(name, known), EditDistance(name, known.substr(0, name.size())) + 1);
-    if (distance >= best) continue;
-    best = distance;
-    nearest = known;
-  }
   throw std::invalid_argument("there is no scenario '" + name + "'" +
-                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+                              Suggestion(NearestOrLonger(name, ScenarioNames())));
 }
 
 std::vector<std::string> ScenarioNames() {

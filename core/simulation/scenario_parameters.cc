@@ -10,9 +10,10 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/config/edit_distance.h"
 #include "core/io/format_text.h"
 #include "core/io/number_text.h"
+#include "core/options/did_you_mean.h"
+#include "core/options/edit_distance.h"
 #include "core/simulation/scenes/scene_builder.h"
 
 namespace trajlo::simulation {
@@ -144,19 +145,12 @@ struct Format {
 };
 
 [[noreturn]] void ThrowUnknown(const std::string& key, const std::vector<Parameter>& parameters) {
-  const Parameter* nearest = nullptr;
-  int nearest_distance = 0;
-  for (const Parameter& parameter : parameters) {
-    // A key cut short counts as near as well: 'motion.sped' means motion.speed_mps.
-    const int distance = std::min(EditDistance(key, parameter.key),
-                                  EditDistance(key, parameter.key.substr(0, key.size())) + 1);
-    if (nearest == nullptr || distance < nearest_distance) {
-      nearest = &parameter;
-      nearest_distance = distance;
-    }
-  }
-  throw std::invalid_argument("there is no parameter '" + key + "'; did you mean '" + nearest->key +
-                              "'?");
+  std::vector<std::string> keys;
+  for (const Parameter& parameter : parameters) keys.push_back(parameter.key);
+  const std::string mend = Suggestion(NearestOrLonger(key, keys));
+  throw std::invalid_argument(
+      "there is no parameter '" + key + "'" +
+      (mend.empty() ? "; trajlo_simulate --list_parameters shows all of them" : mend));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ from trajlo_batch.places import read_json_if
 from trajlo_batch.steps import simulate_command
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_batch.yaml_tree import flatten
-from trajlo_report.names import nearest
+from trajlo_report.names import did_you_mean, nearest
 
 PARTIAL = 3  # exit code of runs whose input was damaged, left out in part or in doubt
 USABLE = (0, PARTIAL)  # exit codes of runs whose whole recording was processed
@@ -141,8 +141,7 @@ def check_metric(suite, more=()):
     near = [*(name for name in names if name.startswith(suite.metric)),
             *nearest(suite.metric, names)]
     raise SuiteError(f"{suite.file}: metric: no run has '{suite.metric}'"
-                     + (f"; did you mean '{near[0]}'?" if near else
-                        f"; there are {', '.join(names)}"))
+                     + (did_you_mean(near[0], "'") if near else f"; there are {', '.join(names)}"))
 
 
 def outcome(folder, status, diverged):

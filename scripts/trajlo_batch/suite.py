@@ -213,7 +213,8 @@ def one_of(document, key, choices):
     value = document.get(key, choices[0])
     if value not in choices:
         raise SuiteError(f"{document.where(key)}: {key} is one of {', '.join(choices)}, "
-                         f"not {value!r}{suggestion(str(value), choices)}")
+                         f"not {value!r}"
+                         + suggestion(str(value), choices, "'"))
     return value
 
 

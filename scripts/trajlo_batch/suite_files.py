@@ -5,7 +5,7 @@ import pathlib
 
 from trajlo_batch.places import ROOT, file_digest
 from trajlo_batch.yaml_lines import SuiteError
-from trajlo_report.names import nearest, suggestion
+from trajlo_report.names import did_you_mean, nearest, suggestion
 
 YAML = (".yaml", ".yml")
 
@@ -33,7 +33,7 @@ def of_project(word, kind):
     beside = {file.stem: file for file in (*known.values(), *path.parent.glob("*.y*ml"))}
     near = nearest(path.stem, beside)
     raise SuiteError(f"there is no file {path}"
-                     + (f"; did you mean {beside[near[0]]}?" if near else ""))
+                     + did_you_mean(beside[near[0]] if near else ""))
 
 
 def find(suite_file, word, names=None):
@@ -51,7 +51,7 @@ def find(suite_file, word, names=None):
     beside = {} if is_name else {file.stem: file.name for folder in (own, ROOT)
                                  for file in (folder / path).parent.glob("*")}
     near = [*(beside[stem] for stem in nearest(path.stem, beside)), *nearest(path.stem, names or {})]
-    hint = f"; did you mean {near[0]}?" if near else ""
+    hint = did_you_mean(near[0] if near else "")
     raise SuiteError(f"{suite_file}: there is no configuration {word}{hint}" if is_name else
                      f"{suite_file}: there is no {own / path}"
                      + ("" if path.is_absolute() else f", nor {ROOT / path}") + hint)

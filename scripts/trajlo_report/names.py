@@ -28,9 +28,15 @@ def nearest(word, known):
     return difflib.get_close_matches(word, list(known), 1)
 
 
-def suggestion(word, known):
-    """ "; did you mean right?", or nothing."""
-    return "".join(f"; did you mean {near}?" for near in nearest(word, known))
+def did_you_mean(right, quote=""):
+    """ "; did you mean right?", or nothing where `right` is empty. The quote is that of the wrong word
+    in the message, if it has one."""
+    return f"; did you mean {quote}{right}{quote}?" if right else ""
+
+
+def suggestion(word, known, quote=""):
+    """The same with the known word that is nearest."""
+    return did_you_mean("".join(nearest(word, known)), quote)
 
 
 def scenario_title(name):

@@ -124,12 +124,13 @@ TEST(Completion, OtherShellsAreRefused) {
 TEST(Commands, SayWhatIsMeantByAMisspeltScenario) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"hall_os1_61", "-o", "/nowhere"},
+        {"hall_os1_1", "-o", "/nowhere"},
         {"--list", "hall_os1_61"},
         {"--list_parameters", "--scenario=hall_os1_61"}}) {
     const Outcome outcome = Call("trajlo_simulate", words);
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(outcome.out, "");
-    EXPECT_THAT(outcome.err, HasSubstr("did you mean hall_os1_16?"));
+    EXPECT_THAT(outcome.err, HasSubstr("; did you mean 'hall_os1_16'?"));
   }
 }
 

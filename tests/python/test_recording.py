@@ -145,9 +145,9 @@ class SimulationTest(unittest.TestCase):
 
     def test_what_cannot_be_simulated(self):
         for message, arguments in [
-                ("there is no scenario 'hal_os1_16'; did you mean hall_os1_16?",
+                ("there is no scenario 'hal_os1_16'; did you mean 'hall_os1_16'?",
                  dict(scenario="hal_os1_16")),
-                ("did you mean hall_os1_16?", dict(scenario="hal_os1")),
+                ("did you mean 'hall_os1_16'?", dict(scenario="hal_os1")),
                 ("motion.speed_mps", dict(parameters={"motion.sped_mps": 1})),
                 ("not a number", dict(parameters={"motion.speed_mps": "fast"})),
                 ("duration_s", dict(duration_s=-1.0)), ("duration_s", dict(duration_s=1e300)),

@@ -42,7 +42,7 @@ class ReadingTest(PretendedTest):
 
     def test_mistakes_are_named_with_their_line(self):
         self.refuse(SMALL.replace("vary", "varry"), "e.yaml:3.*mean vary?")
-        self.refuse(SMALL.replace("grid", "gird"), "e.yaml:2: kind is one of grid.* mean grid?")
+        self.refuse(SMALL.replace("grid", "gird"), "e.yaml:2: kind is one of grid.* mean 'grid'?")
         self.refuse(SMALL.replace("grid", "sobol"), "samples")
         self.refuse(SMALL.replace("{kind: grid}", "{kind: sobol, samples: 6}"),
                     "e.yaml:2: a Sobol design is balanced for 2, 4, 8.*not 6")

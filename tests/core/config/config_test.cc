@@ -7,7 +7,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/config/edit_distance.h"
 #include "core/io/rig_yaml.h"
 #include "tests/core/config/config_testing.h"
 #include "tests/support/temp_folder.h"
@@ -216,13 +215,6 @@ TEST(Config, ContradictionsNameBothKeysAndTheirValues) {
   }
   // Only a kernel that is fitted lies between the two.
   EXPECT_EQ(problem("registration.sigma_m=0.31,expert.registration.kernel_in_spreads=0"), "");
-}
-
-TEST(EditDistance, CountsEdits) {
-  EXPECT_EQ(EditDistance("", ""), 0);
-  EXPECT_EQ(EditDistance("abc", ""), 3);
-  EXPECT_EQ(EditDistance("kitten", "sitting"), 3);
-  EXPECT_EQ(EditDistance("segmetns", "segments"), 1);
 }
 
 }  // namespace

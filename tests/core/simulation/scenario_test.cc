@@ -45,6 +45,11 @@ std::string MessageOf(const std::string& key, const std::string& text) {
   return "";
 }
 
+TEST(Scenario, AKeyThatIsNearNoneComesWithWhereAllAre) {
+  EXPECT_EQ(MessageOf("voxels", "1"),
+            "there is no parameter 'voxels'; trajlo_simulate --list_parameters shows all of them");
+}
+
 TEST(Scenario, AWrongKeyOrValueIsNamedWithTheNearestKey) {
   EXPECT_NE(MessageOf("motion.sped", "1").find("motion.speed_mps"), std::string::npos);
   EXPECT_NE(MessageOf("fault.nan_point_fraction", "1").find("faults.nan_point_fraction"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/config/edit_distance.h"
+#include "core/options/edit_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +34,16 @@ TEST(NearestKey, IsNoneWhereNothingIsNear) {
   EXPECT_EQ(NearestKey("kxxd", {"kind"}), "kind");
   EXPECT_EQ(NearestKey("xxxd", {"kind"}), "");
   EXPECT_EQ(NearestKey("max_corxxxtion", {"max_correction"}), "max_correction");
+}
+
+TEST(NearestOrLonger, TakesABeginningForTheWhole) {
+  const std::vector<std::string> names = {"hall_os1_16", "office_os0_64"};
+  EXPECT_EQ(NearestOrLonger("hall", names), "hall_os1_16");
+  EXPECT_EQ(NearestOrLonger("offcie_os", names), "office_os0_64");
+  EXPECT_EQ(NearestKey("hall", names), "");
+  EXPECT_EQ(NearestOrLonger("motion.sped", {"motion.kind", "motion.speed_mps"}),
+            "motion.speed_mps");
+  EXPECT_EQ(NearestOrLonger("motorway", names), "");
 }
 
 }  // namespace
