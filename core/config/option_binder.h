@@ -19,7 +19,7 @@ class OptionBinder {
  public:
   /// The options that follow are of this section; empty for none.
   OptionBinder& In(const std::string& section) {
-    section_ = section.empty() ? "" : section + ".";
+    section_ = section;
     return *this;
   }
 
@@ -122,8 +122,7 @@ class OptionBinder {
 
   template <typename Field>
   void Push(OptionFor audience, const std::string& name, const char* doc, Field field) {
-    const char* prefix = audience == OptionFor::kExperts ? "expert." : "";
-    options.push_back({prefix + section_ + name, doc, std::move(field)});
+    options.push_back({OptionKey(audience, section_, name), doc, std::move(field)});
   }
 
   std::string section_;

@@ -14,21 +14,16 @@ const std::string kExpertPrefix = "expert.";
 }  // namespace
 
 std::vector<Option> BindOptions(RunConfig* config) {
-  OdometryOptions& odometry = config->odometry;
   OptionBinder d;
   config->input.Describe(d.In("input"));
-  odometry.segmenter.DescribeSensor(d.In("sensor"));
-  odometry.segmenter.Describe(d.In("segmenter"));
-  odometry.map.Describe(d.In("map"));
-  odometry.map.plane.Describe(d.In("map.plane"));
-  odometry.registration.Describe(d.In("registration"));
-  odometry.motion_prior.Describe(d.In("motion_prior"));
-  odometry.solver.Describe(d.In("solver"));
-  config->ceres_form.Describe(d.In("solver.ceres"));
-  odometry.marginalization.Describe(d.In("marginalization"));
-  odometry.window.Describe(d.In("window"));
-  odometry.initialization.Describe(d.In("initialization"));
-  odometry.Describe(d.In(""));
+  config->odometry.DescribeAll(d);
+  // The forms of the Ceres solver stand behind its own options.
+  OptionBinder forms;
+  config->ceres_form.Describe(forms.In("solver.ceres"));
+  const auto last_of_solver = std::find_if(
+      d.options.rbegin(), d.options.rend(),
+      [](const Option& option) { return option.key.find("solver.") != std::string::npos; });
+  d.options.insert(last_of_solver.base(), forms.options.begin(), forms.options.end());
   std::stable_partition(d.options.begin(), d.options.end(), [](const Option& option) {
     return option.key.rfind(kExpertPrefix, 0) != 0;
   });

@@ -146,13 +146,8 @@ std::string AllowedText(const Option& option) {
   return std::visit(
       Overloaded{
           [](const FlagField&) { return std::string("true or false"); },
-          [](const IntegerField& field) {
-            return "a whole number from " + std::to_string(field.min) + " to " +
-                   std::to_string(field.max);
-          },
-          [](const RealField& field) {
-            return "a number from " + NumberText(field.min) + " to " + NumberText(field.max);
-          },
+          [](const IntegerField& field) { return RangeText(field.min, field.max); },
+          [](const RealField& field) { return RangeText(field.min, field.max); },
           [](const TextField&) { return std::string("text"); },
           [](const ChoiceField& field) { return Join(field.names); },
           [](const ExtrinsicsField&) { return std::string("a list, one transform per LiDAR"); },

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/odometry/check_options.h"
 #include "core/odometry/first_poses.h"
 #include "core/odometry/health/belief.h"
 #include "core/odometry/segments/join_segments.h"
@@ -27,6 +28,11 @@ std::size_t FirstSweep(const std::vector<SegmentCloud>& segments) {
   return static_cast<std::size_t>(end - segments.begin()) + (end == segments.end() ? 0 : 1);
 }
 
+const OdometryOptions& Checked(const OdometryOptions& options) {
+  CheckOptions(options);
+  return options;
+}
+
 /// What a LiDAR sees must stay in the map, or nothing holds a body that flies high.
 OdometryOptions WithMapInRange(OdometryOptions options) {
   double& radius_m = options.map.finest.radius_m;
@@ -37,7 +43,7 @@ OdometryOptions WithMapInRange(OdometryOptions options) {
 }  // namespace
 
 Odometry::Odometry(const OdometryOptions& options, const WindowSolverFactory& make_solver)
-    : options_(WithMapInRange(options)),
+    : options_(WithMapInRange(Checked(options))),
       make_solver_(make_solver),
       threads_(options.threads),
       segments_(options.segmenter, &threads_,

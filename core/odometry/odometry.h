@@ -31,6 +31,8 @@ namespace trajlo {
 /// The world frame is the body frame at the first pose of the trajectory.
 class Odometry {
  public:
+  /// Throws std::invalid_argument for options that are out of range or contradict each other: see
+  /// CheckOptions.
   explicit Odometry(const OdometryOptions& options,
                     const WindowSolverFactory& make_solver = MakeWindowSolver);
   Odometry(const Odometry&) = delete;

@@ -48,6 +48,22 @@ struct OdometryOptions {
       "Number of threads; 0 takes all cores. The result does not depend on it. With N > 1, one "
       "more reads ahead, and as many decompress bz2 chunks of a ROS 1 bag.");
   }
+
+  /// All of them, by section; `d.In(section)` says where those that follow belong.
+  template <typename Describer>
+  void DescribeAll(Describer& d) {
+    segmenter.DescribeSensor(d.In("sensor"));
+    segmenter.Describe(d.In("segmenter"));
+    map.Describe(d.In("map"));
+    map.plane.Describe(d.In("map.plane"));
+    registration.Describe(d.In("registration"));
+    motion_prior.Describe(d.In("motion_prior"));
+    solver.Describe(d.In("solver"));
+    marginalization.Describe(d.In("marginalization"));
+    window.Describe(d.In("window"));
+    initialization.Describe(d.In("initialization"));
+    Describe(d.In(""));
+  }
 };
 
 }  // namespace trajlo

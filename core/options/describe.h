@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,13 @@ namespace trajlo {
 /// Who meets an option: everyone who runs recordings, or those who study the estimator. Keys of
 /// the latter begin with `expert.`.
 enum class OptionFor { kUsers, kExperts };
+
+/// The key of an option in a section such as "window", which may be empty.
+inline std::string OptionKey(OptionFor audience, const std::string& section,
+                             const std::string& name) {
+  return (audience == OptionFor::kExperts ? "expert." : "") +
+         (section.empty() ? "" : section + ".") + name;
+}
 
 /// What a number may be.
 template <typename T>

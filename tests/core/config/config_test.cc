@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -198,6 +199,13 @@ TEST(Config, ListedKeysCanBeSetToTheirDefaults) {
 }
 
 TEST(Config, DefaultsPassTheChecks) { EXPECT_NO_THROW(CheckConfig(RunConfig())); }
+
+TEST(Config, ValuesThatAProgramSetsAreCheckedAsWell) {
+  RunConfig config;
+  config.odometry.segmenter.interval_s = std::nan("");
+  EXPECT_THAT(ConfigErrorOf([&] { CheckConfig(config); }),
+              StartsWith("'segmenter.interval_s' must be a number from "));
+}
 
 TEST(Config, ContradictionsNameBothKeysAndTheirValues) {
   const auto problem = [](const std::string& settings) {
