@@ -22,7 +22,7 @@ struct Command {
   const char* help = "";  ///< Examples, flags and exit codes.
   std::function<ExitCode(const CommandLine&)> run;
   /// For completion: what a flag may be; for "" what an argument may be. Empty where any text may
-  /// stand, or a file.
+  /// stand, or a file. For --set: "key=", or "key=value" for each value where they are few.
   std::function<std::vector<std::string>(const std::string& flag)> values = {};
   /// The command looks at HandleInterrupts(), which is called before anything else.
   bool ends_gracefully = false;

@@ -64,7 +64,10 @@ Words ValuesOf(const Command& command, const std::string& flag) {
   if (flag == "config") {
     for (const NamedConfig& config : NamedConfigs()) values.push_back(config.name);
   } else if (flag == "set") {
-    for (const KeyInfo& key : ListKeys()) values.push_back(key.key + "=");
+    for (const KeyInfo& key : ListKeys()) {
+      if (key.choices.empty()) values.push_back(key.key + "=");
+      for (const std::string& choice : key.choices) values.push_back(key.key + "=" + choice);
+    }
   }
   return values;
 }
@@ -77,12 +80,22 @@ Words BeginningWith(const std::string& beginning, const std::string& kept, const
   return matches;
 }
 
+/// The values of an option are offered when its `=` is there, and the options until then.
+Words CutAtEquals(Words words) {
+  for (std::string& word : words) word = word.substr(0, word.find('=') + 1);
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return words;
+}
+
 /// Of "--config=ouster,in" everything up to the comma is kept.
 Words CompleteValue(const Command& command, const std::string& flag, const std::string& kept,
                     const std::string& value) {
   const std::size_t comma = IsList(flag) ? value.rfind(',') : std::string::npos;
   const std::size_t begin = comma == std::string::npos ? 0 : comma + 1;
-  return BeginningWith(value.substr(begin), kept + value.substr(0, begin), ValuesOf(command, flag));
+  const std::string beginning = value.substr(begin);
+  Words values = ValuesOf(command, flag);
+  if (flag == "set" && beginning.find('=') == std::string::npos) values = CutAtEquals(values);
+  return BeginningWith(beginning, kept + value.substr(0, begin), values);
 }
 
 bool IsFlagOf(const Command& command, const std::string& name) {

@@ -301,12 +301,14 @@ std::vector<std::string> Values(const std::string& flag) {
   if (flag == "bag_layout") return {"ouster", "velodyne", "livox"};
   if (flag == "bag_compression") return {"none", "lz4", "bz2"};
   if (flag != "set") return {};
-  std::vector<std::string> keys;
+  std::vector<std::string> settings;
   Scenario scenario = trajlo::simulation::MakeScenario("hall_os1_16");
   for (const auto& parameter : trajlo::simulation::Parameters(&scenario)) {
-    keys.push_back(parameter.key + "=");
+    const std::vector<std::string> choices = trajlo::simulation::ChoicesOf(parameter);
+    if (choices.empty()) settings.push_back(parameter.key + "=");
+    for (const std::string& choice : choices) settings.push_back(parameter.key + "=" + choice);
   }
-  return keys;
+  return settings;
 }
 
 }  // namespace

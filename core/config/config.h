@@ -60,6 +60,8 @@ struct KeyInfo {
   std::string allowed;        ///< "a whole number from 1 to 20", "true or false", "ceres | ..."
   std::string default_value;  ///< As YAML.
   std::string doc;            ///< One sentence.
+  /// The words that it may be; empty where numbers or any text may stand.
+  std::vector<std::string> choices;
 };
 
 /// Every option, in the order of the dump.

@@ -94,7 +94,8 @@ std::vector<KeyInfo> ListKeys() {
   RunConfig defaults;
   std::vector<KeyInfo> keys;
   for (const Option& option : BindOptions(&defaults)) {
-    keys.push_back({option.key, AllowedText(option), ValueText(option), option.doc});
+    keys.push_back(
+        {option.key, AllowedText(option), ValueText(option), option.doc, ChoicesOf(option)});
   }
   return keys;
 }

@@ -69,6 +69,8 @@ void SetOption(const YAML::Node& node, const Option& option);
 std::string ValueText(const Option& option);
 /// What the option may hold, in words.
 std::string AllowedText(const Option& option);
+/// The words that the option, or each element of a list, may be; empty for numbers and texts.
+std::vector<std::string> ChoicesOf(const Option& option);
 
 /// A value that an option cannot take; becomes a ConfigError where file and key are known.
 struct ValueError {

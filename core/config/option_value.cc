@@ -79,13 +79,14 @@ std::string ListText(const ListField& field, const Option& option) {
   return "[" + text + "]";
 }
 
-/// What one element of a list may be, whether or not there is one.
-std::string AllowedInList(const ListField& field, const Option& option) {
+/// The first element of a list, whether or not there is one, given to `ask`.
+template <typename Ask>
+auto OfFirst(const ListField& field, const Option& option, const Ask& ask) {
   const std::size_t size = field.size();
   if (size == 0) field.resize(1);
-  std::string text = AllowedText(At(option, field, 0)) + ", or a list with one per LiDAR";
+  auto answer = ask(At(option, field, 0));
   field.resize(size);
-  return text;
+  return answer;
 }
 
 std::string Quoted(const std::string& text) {
@@ -151,9 +152,18 @@ std::string AllowedText(const Option& option) {
           [](const TextField&) { return std::string("text"); },
           [](const ChoiceField& field) { return Join(field.names); },
           [](const ExtrinsicsField&) { return std::string("a list, one transform per LiDAR"); },
-          [&](const ListField& field) { return AllowedInList(field, option); },
+          [&](const ListField& field) {
+            return OfFirst(field, option, AllowedText) + ", or a list with one per LiDAR";
+          },
       },
       option.field);
+}
+
+std::vector<std::string> ChoicesOf(const Option& option) {
+  if (std::holds_alternative<FlagField>(option.field)) return {"true", "false"};
+  if (const auto* choice = std::get_if<ChoiceField>(&option.field)) return choice->names;
+  const auto* list = std::get_if<ListField>(&option.field);
+  return list == nullptr ? std::vector<std::string>() : OfFirst(*list, option, ChoicesOf);
 }
 
 }  // namespace trajlo

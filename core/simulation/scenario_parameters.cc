@@ -257,4 +257,10 @@ std::string ParameterText(const Parameter& parameter) {
   return std::visit(Format{}, parameter.value);
 }
 
+std::vector<std::string> ChoicesOf(const Parameter& parameter) {
+  if (std::holds_alternative<bool*>(parameter.value)) return {"true", "false"};
+  const auto* word = std::get_if<Word>(&parameter.value);
+  return word == nullptr ? std::vector<std::string>() : word->choices;
+}
+
 }  // namespace trajlo::simulation

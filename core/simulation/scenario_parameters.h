@@ -54,4 +54,7 @@ void SetParameters(Scenario* scenario, std::vector<std::pair<std::string, std::s
 /// The value as text that SetParameter reads back.
 std::string ParameterText(const Parameter& parameter);
 
+/// The words that the parameter may be; empty for numbers and where any text may stand.
+std::vector<std::string> ChoicesOf(const Parameter& parameter);
+
 }  // namespace trajlo::simulation

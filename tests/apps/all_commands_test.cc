@@ -116,6 +116,26 @@ TEST(Completion, BashOffersFlagsConfigurationsScenariosAndOptions) {
   EXPECT_EQ(Offered("trajlo_run fli"), "") << "files are bash's own";
 }
 
+TEST(Completion, BashOffersTheValuesOfOptions) {
+  EXPECT_EQ(Offered("trajlo_run flight.bag --set solver.k"), "solver.kind=");
+  EXPECT_EQ(Offered("trajlo_run flight.bag --set solver.kind="), "ceres gauss_newton");
+  EXPECT_EQ(Offered("trajlo_run flight.bag --set=solver.kind=ga"), "gauss_newton");
+  EXPECT_EQ(Offered("trajlo_run flight.bag --set=map.radius_m=9,solver.kind=ce"), "ceres");
+  EXPECT_EQ(Offered("trajlo_run flight.bag --set motion_prior.self_tuning="), "true false");
+  EXPECT_EQ(Offered("trajlo_run flight.bag --set map.radius_m="), "") << "a number";
+  EXPECT_EQ(Offered("trajlo_simulate hall_os1_16 --set moving_objects="), "true false");
+  EXPECT_EQ(Offered("trajlo_simulate hall_os1_16 --set=motion.kind=fli"), "flight");
+}
+
+TEST(Completion, OffersZshWholeWords) {
+  const auto offered = [](const std::string& previous, const std::string& word) {
+    return Call("trajlo_run", {"--complete", previous, word}).out;
+  };
+  EXPECT_EQ(offered("--set", "solver.kind="), "solver.kind=ceres\nsolver.kind=gauss_newton\n");
+  EXPECT_EQ(offered("flight.bag", "--set=map.radius_m=9,solver.kind=ga"),
+            "--set=map.radius_m=9,solver.kind=gauss_newton\n");
+}
+
 TEST(Completion, OtherShellsAreRefused) {
   EXPECT_THAT(Call("trajlo_run", {"--completion", "zsh"}).out, HasSubstr("#compdef trajlo_run"));
   EXPECT_EQ(Call("trajlo_run", {"--completion=fish"}).exit_code, 1);
