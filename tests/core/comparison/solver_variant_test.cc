@@ -42,8 +42,10 @@ TEST(SolverVariants, MistakesNameFileAndLine) {
   EXPECT_THAT(error("nothing: 1\n"), HasSubstr("expected 'variants:'"));
   EXPECT_THAT(error("variants:\n  - {set: \"threads=1\"}\n"), HasSubstr("variants.yaml:2"));
   EXPECT_THAT(error("variants:\n  - {name: a}\n  - {name: a}\n"), HasSubstr("appears twice"));
-  EXPECT_THAT(error("variants:\n  - {name: ../a}\n"), HasSubstr("that of a folder"));
-  EXPECT_THAT(error("variants:\n  - {name: \"a,b\"}\n"), HasSubstr("that of a folder"));
+  EXPECT_THAT(error("variants:\n  - {name: ../a}\n"),
+              HasSubstr("must not begin with a dot, nor hold"));
+  EXPECT_THAT(error("variants:\n  - {name: \"a,b\"}\n"),
+              HasSubstr("must not begin with a dot, nor hold"));
   EXPECT_THAT(error("variants:\n  - {name: a, set: \"solver.knd=ceres\"}\n"),
               HasSubstr("did you mean 'solver.kind'"));
   EXPECT_THAT(error("variants:\n  - {name: a, sets: \"solver.kind=ceres\"}\n"),
