@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/io/euroc_csv.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/io/errors.h"
 #include "core/io/finite_pose.h"
+#include "core/io/format_text.h"
 #include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
 #include "core/io/stamp_text.h"
@@ -20,6 +22,25 @@ std::string_view TakeField(std::string_view* line) {
   line->remove_prefix(comma == std::string_view::npos ? line->size() : comma + 1);
   const std::string_view word = TakeWord(&field);
   return TakeWord(&field).empty() ? word : std::string_view();
+}
+
+/// No truth has poses as often as this. Stamps in seconds, ms or us give less if taken as ns.
+constexpr double kShortestPeriod_ns = 2e5;
+
+void CheckStampUnit(const std::filesystem::path& path, const std::vector<StampedPose>& poses) {
+  if (poses.size() < 2) return;
+  const auto [first, last] = std::minmax_element(
+      poses.begin(), poses.end(),
+      [](const StampedPose& a, const StampedPose& b) { return a.t_ns < b.t_ns; });
+  const double step_ns =
+      static_cast<double>(last->t_ns - first->t_ns) / static_cast<double>(poses.size() - 1);
+  const bool is_one_pose_twice = step_ns == 0.0 && poses.size() == 2;
+  if (step_ns >= kShortestPeriod_ns || is_one_pose_twice) return;
+  throw InputError(
+      path, FormatText("the stamps are not in nanoseconds: they would be %.2g ns apart", step_ns),
+      "EuRoC's csv, 't_ns,x,y,z,qw,qx,qy,qz', has whole nanoseconds. Stamps in "
+      "seconds need TUM's format, 'stamp x y z qx qy qz qw' with blanks between the "
+      "columns.");
 }
 
 }  // namespace
@@ -56,6 +77,7 @@ std::vector<StampedPose> ParseEurocCsv(const std::filesystem::path& path, std::s
     pose.T_world_body.q.normalize();
     poses.push_back(pose);
   }
+  CheckStampUnit(path, poses);
   return poses;
 }
 

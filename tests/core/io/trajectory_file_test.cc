@@ -82,13 +82,33 @@ TEST_F(TrajectoryFileTest, NumbersWhoseLengthIsInfiniteAreNoPose) {
   // rotation.
   EXPECT_THAT(Read("1 0 0 0 1e200 0 0 0\n2 0 0 0 0 0 0 1\n").t_ns, ElementsAre(2'000'000'000));
   // One that has flown off is a pose.
-  EXPECT_THAT(Read("1,1e200,0,0,1,0,0,0\n3,0,0,0,1,0,0,0\n").t_ns, ElementsAre(1, 3));
+  EXPECT_THAT(Read("1,1e200,0,0,1,0,0,0\n3000000,0,0,0,1,0,0,0\n").t_ns, ElementsAre(1, 3000000));
   EXPECT_THAT(ErrorOf("1e200 1e200 0 0 -1e200 1e200 0 0 0 0 1 0\n"), HasSubstr("not finite"));
 }
 
 TEST_F(TrajectoryFileTest, StampsInMillisecondsAreRefused) {
   EXPECT_THAT(ErrorOf("1700000000000 0 0 0 0 0 0 1\n"), HasSubstr("ns, us or ms"));
   EXPECT_THAT(ErrorOf("1700000000000.250 0 0 0 0 0 0 1\n"), HasSubstr("ns, us or ms"));
+}
+
+TEST_F(TrajectoryFileTest, StampsOfACsvThatAreNoNanosecondsAreRefused) {
+  const auto csv = [](const std::vector<std::string>& stamps) {
+    std::string text = "timestamp,tx,ty,tz,qx,qy,qz,qw\n";
+    for (const std::string& stamp : stamps) text += stamp + ",1,2,3,0,0,0,1\n";
+    return text;
+  };
+  for (const auto& stamps : std::vector<std::vector<std::string>>{
+           {"1700000000.000000000", "1700000000.001000000", "1700000000.002000000"},  // seconds
+           {"1700000000.00", "1700000000.05", "1700000000.10"},
+           {"0.0", "1.0", "2.0"},
+           {"1700000000000.0", "1700000000050.0"},       // ms
+           {"1700000000000000", "1700000000050000"}}) {  // us
+    EXPECT_THAT(ErrorOf(csv(stamps)),
+                ::testing::AllOf(HasSubstr("not in nanoseconds"), HasSubstr("TUM's format")))
+        << stamps[1];
+  }
+  EXPECT_EQ(Read(csv({"1.70000000000000e+18", "1.70000000000500e+18"})).t_ns.size(), 2u);
+  EXPECT_EQ(Read(csv({"0", "5000000", "5000000", "10000000"})).t_ns.size(), 4u);
 }
 
 TEST_F(TrajectoryFileTest, ALastLineThatIsCutIsLeftOut) {
