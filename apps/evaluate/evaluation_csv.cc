@@ -32,7 +32,8 @@ std::string EvaluationCsv(const EvaluateRequest& request, const EvaluationReport
   const std::vector<MetricColumn> columns = MetricColumns(request.options.relative);
   std::string csv =
       "name,file,diverged,divergence_reason,association,alignment,scale,time_offset_s,pairs,"
-      "completeness,paired_share,path_length_m,duration_s,incomplete,rotation_sigma_deg,"
+      "completeness,paired_share,covered_share,path_length_m,duration_s,incomplete,rotation_sigma_"
+      "deg,"
       "rotation_determined";
   for (const MetricColumn& column : columns) csv += "," + column.key;
   csv += "\n";
@@ -45,14 +46,14 @@ std::string EvaluationCsv(const EvaluateRequest& request, const EvaluationReport
       const Evaluation& e = *estimate.evaluation;
       for (const double value :
            {e.alignment.scale, e.time_offset_s, static_cast<double>(e.pairs.size()), e.completeness,
-            e.paired_share, e.path_length_m, e.duration_s}) {
+            e.paired_share, e.covered_share, e.path_length_m, e.duration_s}) {
         csv += "," + Number(value);
       }
       csv += std::string(",") + (e.incomplete ? "true" : "false") + ",";
       if (const auto sigma_deg = RotationSigmaDeg(e.alignment)) csv += Number(*sigma_deg);
       csv += std::string(",") + (e.rotation_determined ? "true" : "false");
     } else {
-      csv += ",,,0,,,,,,,";
+      csv += ",,,0,,,,,,,,";
     }
     for (const MetricColumn& column : columns) {
       const auto value =

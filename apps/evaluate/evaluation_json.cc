@@ -110,8 +110,9 @@ Json EstimateJson(const EstimateReport& report) {
                {"incomplete", report.evaluation && report.evaluation->incomplete},
                {"trajectory", TrajectoryJson(report.trajectory)}};
   if (!report.evaluation) {
-    for (const char* key : {"completeness", "paired_share", "path_length_m", "duration_s", "ate",
-                            "kitti", "alignment", "time_offset_s", "estimated_time_offset"}) {
+    for (const char* key :
+         {"completeness", "paired_share", "covered_share", "path_length_m", "duration_s", "ate",
+          "kitti", "alignment", "time_offset_s", "estimated_time_offset"}) {
       json[key] = nullptr;
     }
     json["pairs"] = 0;
@@ -123,6 +124,7 @@ Json EstimateJson(const EstimateReport& report) {
   json["completeness"] = e.completeness;
   json["pairs"] = e.pairs.size();
   json["paired_share"] = e.paired_share;
+  json["covered_share"] = e.covered_share;
   json["path_length_m"] = Finite(e.path_length_m);
   json["duration_s"] = e.duration_s;
   json["ate"] = PoseErrorsJson(e.absolute);

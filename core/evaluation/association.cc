@@ -126,6 +126,8 @@ double MaxGap(const std::vector<std::int64_t>& t_ns) {
 std::vector<PosePair> Associate(const TimedPoses& estimate, const TimedPoses& truth,
                                 std::int64_t time_offset_ns,
                                 const PoseAssociationOptions& options) {
+  if (estimate.size() == 0) throw EvaluationError("the estimate has no poses");
+  if (truth.size() == 0) throw EvaluationError("the ground truth has no poses");
   if (!estimate.HasStamps() && !truth.HasStamps()) return PairLines(estimate, truth);
   if (!estimate.HasStamps() || !truth.HasStamps()) {
     throw EvaluationError(std::string("the ") + (estimate.HasStamps() ? "truth" : "estimate") +

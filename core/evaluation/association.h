@@ -47,8 +47,8 @@ struct PosePair {
 double MaxGap(const std::vector<std::int64_t>& t_ns);
 
 /// Forms the pairs after `time_offset_ns` has been added to the stamps of the estimate.
-/// Throws EvaluationError if there is none, or if only one of the two has stamps, or if neither
-/// has and the numbers of poses differ.
+/// Throws EvaluationError if there is none, or if one of the two has no poses, or if only one of
+/// them has stamps, or if neither has and the numbers of poses differ.
 std::vector<PosePair> Associate(const TimedPoses& estimate, const TimedPoses& truth,
                                 std::int64_t time_offset_ns, const PoseAssociationOptions& options);
 

@@ -7,6 +7,7 @@
 
 #include "core/evaluation/absolute_error.h"
 #include "core/evaluation/completeness.h"
+#include "core/evaluation/coverage.h"
 #include "core/evaluation/error_causes.h"
 #include "core/evaluation/evaluation_error.h"
 #include "core/evaluation/rotation_doubt.h"
@@ -67,6 +68,11 @@ void EvaluateKitti(const std::vector<PosePair>& pairs, Evaluation* evaluation) {
   evaluation->kitti = std::move(errors);
 }
 
+/// Keeps a warning unless it is empty.
+void Warn(std::string warning, Evaluation* evaluation) {
+  if (!warning.empty()) evaluation->warnings.push_back(std::move(warning));
+}
+
 double FindTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
                       const EvaluationOptions& options, Evaluation* evaluation) {
   if (!options.estimate_time_offset) return options.time_offset_s;
@@ -77,7 +83,7 @@ double FindTimeOffset(const TimedPoses& estimate, const TimedPoses& truth,
   search.with_scale = HasScale(options.alignment.kind);
   const TimeOffset found =
       EstimateTimeOffset(InFrame(estimate, options.T_body_truth), truth, search);
-  if (!found.warning.empty()) evaluation->warnings.push_back(found.warning);
+  Warn(found.warning, evaluation);
   evaluation->estimated_time_offset = found;
   return found.offset_s;
 }
@@ -131,23 +137,35 @@ void PairUp(const TimedPoses& estimate, const TimedPoses& truth, const TimedPose
   }
   evaluation->completeness = Completeness(estimate, truth, offset_ns, options.max_estimate_gap_s);
   evaluation->paired_share = PairedShare(pairs, counted);
+  const Coverage coverage = CoverageOf(estimate, pairs);
+  evaluation->covered_share = coverage.Share();
+  Warn(JudgeCoverage(coverage), evaluation);
 }
 
 void AlignPairs(const AlignmentOptions& options, Evaluation* evaluation) {
   evaluation->alignment = ComputeAlignment(evaluation->pairs, options);
-  if (!evaluation->alignment.warning.empty()) {
-    evaluation->warnings.push_back(evaluation->alignment.warning);
-  }
-  for (std::string& warning : JudgeShape(evaluation->pairs, HasScale(options.kind))) {
-    evaluation->warnings.push_back(std::move(warning));
-  }
+  Warn(evaluation->alignment.warning, evaluation);
   for (PosePair& pair : evaluation->pairs) pair.estimate = evaluation->alignment * pair.estimate;
 }
 
 void DoubtRotations(Evaluation* evaluation) {
   RotationDoubt doubt = JudgeRotations(evaluation->pairs, evaluation->alignment);
   evaluation->rotation_determined = doubt.determined;
-  for (std::string& warning : doubt.warnings) evaluation->warnings.push_back(std::move(warning));
+  for (std::string& warning : doubt.warnings) Warn(std::move(warning), evaluation);
+}
+
+/// Says what the truth seems to be other than the poses of the body in metres, by the clock of the
+/// estimate.
+void DoubtTruth(const TimedPoses& estimate, const TimedPoses& truth,
+                const EvaluationOptions& options, Evaluation* evaluation) {
+  const bool with_scale = HasScale(options.alignment.kind);
+  for (std::string& warning : JudgeShape(evaluation->pairs, with_scale)) {
+    Warn(std::move(warning), evaluation);
+  }
+  if (estimate.HasStamps() && truth.HasStamps()) {
+    WarnOfOtherCauses(estimate, truth, options.association, evaluation);
+  }
+  if (evaluation->has_orientation) DoubtRotations(evaluation);
 }
 
 }  // namespace
@@ -179,8 +197,7 @@ Evaluation Evaluate(const TimedPoses& estimate, const TimedPoses& truth,
   AlignPairs(options.alignment, &evaluation);
   evaluation.errors = AbsoluteErrors(evaluation.pairs, evaluation.has_orientation);
   evaluation.absolute = Statistics(evaluation.errors);
-  if (timed) WarnOfOtherCauses(estimate, truth, options.association, &evaluation);
-  if (evaluation.has_orientation) DoubtRotations(&evaluation);
+  DoubtTruth(estimate, truth, options, &evaluation);
   for (const RelativeErrorOptions& relative : options.relative) {
     evaluation.relative.push_back(EvaluateRelative(evaluation, counted.t_ns, relative));
   }

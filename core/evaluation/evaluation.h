@@ -73,6 +73,8 @@ struct Evaluation {
   /// The share of the estimate's poses that have a partner (of the truth's poses if the estimate
   /// is interpolated).
   double paired_share = 0.0;
+  /// The share of the estimate's time that the pairs stand for; 1 without stamps.
+  double covered_share = 1.0;
   /// Along the truth of the pairs.
   double path_length_m = 0.0;
   /// From the first pair to the last; 0 without stamps.

@@ -200,6 +200,16 @@ TEST_F(TrajloEvaluateTest, TheOutputHoldsEveryNumber) {
               AllOf(HasSubstr("good & 0.00500 "), HasSubstr("lost & $\\times$")));
 }
 
+TEST_F(TrajloEvaluateTest, TruthOfASmallPartOfTheRunIsTold) {
+  WritePoses("sliver.tum", SmoothPoses(18.0, 0.02, 1000));
+  const Outcome outcome = Call({"good.tum", "sliver.tum", Output(), "--report=false"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("of the estimate could be compared with the ground truth"));
+  EXPECT_THAT(Json()["warnings"].dump(), HasSubstr("could be compared"));
+  EXPECT_LT(Json()["estimates"][0]["covered_share"].get<double>(), 0.5);
+  EXPECT_THAT(ReadFile(temp_ / "out/evaluation.csv"), HasSubstr(",covered_share,"));
+}
+
 TEST_F(TrajloEvaluateTest, NothingIsOverwrittenUnasked) {
   ASSERT_EQ(Call({"good.tum", "truth.tum", Output(), "--report=false"}).exit_code, 0);
   const std::string first = ReadFile(temp_ / "out/evaluation.json");

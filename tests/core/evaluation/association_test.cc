@@ -130,6 +130,11 @@ TEST(Association, WithoutStampsLinesArePairedAndMustBeAsMany) {
   EXPECT_THAT(ErrorOf(a, b, {}), ::testing::AllOf(HasSubstr("3 poses"), HasSubstr("2")));
 }
 
+TEST(Association, WithoutPosesThatIsWhatIsSaid) {
+  EXPECT_EQ(ErrorOf({}, At({5.0, 6.0}), {}), "the estimate has no poses");
+  EXPECT_EQ(ErrorOf(At({5.0, 6.0}), {}, {}), "the ground truth has no poses");
+}
+
 TEST(Association, NoPairIsExplainedByTheTimeSpans) {
   const std::string apart = ErrorOf(At({5.0, 6.0}), At({50.0, 60.0}), {});
   EXPECT_THAT(apart, ::testing::AllOf(HasSubstr("5.000 to 6.000 s"), HasSubstr("50.000 to 60.000"),
