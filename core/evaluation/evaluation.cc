@@ -10,6 +10,7 @@
 #include "core/evaluation/coverage.h"
 #include "core/evaluation/error_causes.h"
 #include "core/evaluation/evaluation_error.h"
+#include "core/evaluation/inverse_doubt.h"
 #include "core/evaluation/rotation_doubt.h"
 #include "core/evaluation/shape_doubt.h"
 #include "core/evaluation/stamp_search.h"
@@ -155,10 +156,15 @@ void DoubtRotations(Evaluation* evaluation) {
 }
 
 /// Says what the truth seems to be other than the poses of the body in metres, by the clock of the
-/// estimate.
+/// estimate. Inverted poses explain all else that is odd about them.
 void DoubtTruth(const TimedPoses& estimate, const TimedPoses& truth,
                 const EvaluationOptions& options, Evaluation* evaluation) {
   const bool with_scale = HasScale(options.alignment.kind);
+  if (evaluation->has_orientation) {
+    const std::string inverse = JudgeInverse(evaluation->pairs, with_scale);
+    Warn(inverse, evaluation);
+    if (!inverse.empty()) return;
+  }
   for (std::string& warning : JudgeShape(evaluation->pairs, with_scale)) {
     Warn(std::move(warning), evaluation);
   }
