@@ -82,7 +82,8 @@ def draw(arguments):
         conclusions=[
             *words.of_end(document), *words.of_windows(lockstep), *words.by_whole_runs_only(document["variants"]),
             *words.of_runs(free)],
-        undrawn=undrawn, few_poses=words.few_poses,
+        undrawn=undrawn, few_poses=words.few_poses, warnings=words.warnings(document),
+        compared=words.compared,
         leaves_s={item["name"]: words.since_begin(folder, item) for item in free},
         length=words.small_length, config=(folder / "config.yaml").read_text()))
     print(f"{report}: {names.counted(len(document['variants']), 'variant')}, "

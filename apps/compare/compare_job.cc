@@ -5,13 +5,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "apps/compare/compare_report.h"
+#include "apps/compare/compare_warnings.h"
 #include "apps/compare/free_run.h"
 #include "apps/compare/lockstep_run.h"
 #include "apps/compare/truth_error.h"
 #include "apps/print_warnings.h"
-#include "core/evaluation/evaluation_error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
 #include "core/io/recording/open_recording.h"
@@ -25,6 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kCommand[] = "trajlo_compare_solvers";
+constexpr char kNoRuns[] =
+    "--truth is not used: it is for the errors of whole runs, and --mode=lockstep has none";
 constexpr std::size_t kStampsToLookAt = 15;
 /// The end of a recording is not known before all is read. On average no scan takes longer, pauses
 /// included.
@@ -56,18 +60,8 @@ void Write(const CompareRequest& request, const CompareReport& report) {
   write("comparison.json", CompareJson(request, report));
 }
 
-std::optional<double> ErrorOf(const FreeResult& result, const std::optional<TimedPoses>& truth) {
-  try {
-    if (truth) return PositionError(*truth, result.poses);
-  } catch (const EvaluationError& error) {
-    std::fprintf(stderr, "trajlo_compare_solvers: %s: %s\n", result.name.c_str(), error.what());
-  }
-  return std::nullopt;
-}
-
 /// A truth of another time is of no use, and better known before the runs than after.
-void RequireOverlap(const CompareRequest& request) {
-  const TimedPoses truth = ReadTruth(request.truth);
+void RequireOverlap(const CompareRequest& request, const TimedPoses& truth) {
   if (!truth.HasStamps()) {
     throw InputError(request.truth, "has no stamps, and the poses of the runs are found by them",
                      "Give a truth in TUM's or EuRoC's format.");
@@ -94,9 +88,8 @@ void RequireOverlap(const CompareRequest& request) {
 }
 
 /// Writes after each part, so that what was computed is there whatever comes.
-void Compare(const CompareRequest& request, const std::atomic<bool>& stop, CompareReport* report) {
-  std::optional<TimedPoses> truth;
-  if (!request.truth.empty()) truth = ReadTruth(request.truth);
+void Compare(const CompareRequest& request, const std::optional<TimedPoses>& truth,
+             const std::atomic<bool>& stop, CompareReport* report) {
   if (request.lockstep) {
     for (const SolverVariant& variant : request.variants) {
       if (IsAboutOneWindow(variant, request.config)) {
@@ -112,7 +105,7 @@ void Compare(const CompareRequest& request, const std::atomic<bool>& stop, Compa
   for (const SolverVariant& variant : request.variants) {
     if (!request.free || stop) break;
     FreeResult result = RunFree(request, variant, stop);
-    result.ate_rmse_m = ErrorOf(result, truth);
+    if (truth) result.truth_error = CompareWithTruth(*truth, result.poses);
     report->free.push_back(std::move(result));
     CompareWithFirst(report->free.front(), &report->free.back());
     Write(request, *report);
@@ -124,10 +117,11 @@ void Compare(const CompareRequest& request, const std::atomic<bool>& stop, Compa
 /// What is to be said of the recording, and of the runs; what is worse wins.
 ExitCode Judge(const CompareReport& report, bool has_truth, bool was_interrupted) {
   const Feed& read = report.free.empty() ? report.lockstep_feed : report.free.front().feed;
-  PrintWarnings("trajlo_compare_solvers", read.warnings);
+  PrintWarnings(kCommand, read.warnings);
+  PrintWarnings(kCommand, WarningsOfRuns(report), " are in comparison.json");
   ExitCode code = ExitCode::kOk;
   const auto say = [&](ExitCode worse, const std::string& text) {
-    std::fprintf(stderr, "trajlo_compare_solvers: %s\n", text.c_str());
+    std::fprintf(stderr, "%s: %s\n", kCommand, text.c_str());
     code = worse;
   };
   if (!read.shortcomings.empty()) say(ExitCode::kPartialInput, read.shortcomings);
@@ -144,8 +138,11 @@ ExitCode Judge(const CompareReport& report, bool has_truth, bool was_interrupted
     say(ExitCode::kLost,
         "'" + result.name + "' got lost at " + FormatSeconds(*result.feed.lost_at_ns) + " s");
   }
+  for (const std::string& failure : FailuresOfRuns(report)) {
+    std::fprintf(stderr, "%s: %s\n", kCommand, failure.c_str());
+  }
   const bool no_errors = std::none_of(report.free.begin(), report.free.end(),
-                                      [](const FreeResult& run) { return run.ate_rmse_m; });
+                                      [](const FreeResult& run) { return run.AteRmse_m(); });
   if (has_truth && !report.free.empty() && no_errors && code == ExitCode::kOk) {
     say(ExitCode::kPartialInput, "no run could be compared with the truth");
   }
@@ -158,14 +155,20 @@ ExitCode Judge(const CompareReport& report, bool has_truth, bool was_interrupted
 }  // namespace
 
 ExitCode RunComparison(const CompareRequest& request, const std::atomic<bool>& stop) {
-  if (!request.truth.empty()) RequireOverlap(request);
-  PrepareFolder(request);
   CompareReport report;
-  Compare(request, stop, &report);
+  std::optional<TimedPoses> truth;
+  if (!request.truth.empty()) {
+    truth = ReadTruth(request.truth, &report.warnings);
+    RequireOverlap(request, *truth);
+    if (!request.free) report.warnings.emplace_back(kNoRuns);
+  }
+  PrepareFolder(request);
+  PrintWarnings(kCommand, report.warnings);
+  Compare(request, truth, stop, &report);
   const DrawOutcome drawn =
       request.draw ? RunDrawScript("draw_comparison.py", request.output) : DrawOutcome();
   if (!drawn.problem.empty()) {
-    std::fprintf(stderr, "trajlo_compare_solvers: no figures: %s\n", drawn.problem.c_str());
+    std::fprintf(stderr, "%s: no figures: %s\n", kCommand, drawn.problem.c_str());
   }
   if (!request.quiet) std::fputs(CompareTables(report).c_str(), stdout);
   const ExitCode code = Judge(report, !request.truth.empty(), stop);

@@ -40,6 +40,12 @@ std::string LockstepTable(const CompareReport& report) {
   return text;
 }
 
+/// With a question mark where there is a warning.
+std::string AteText(const FreeResult& r) {
+  if (!r.AteRmse_m()) return "-";
+  return FormatText("%.4f%s", *r.AteRmse_m(), r.truth_error->warnings.empty() ? "" : " ?");
+}
+
 std::string FreeTable(const CompareReport& report) {
   std::string text =
       "free: each runs the whole recording by itself; ratio and apart: to the first variant; solve "
@@ -53,8 +59,7 @@ std::string FreeTable(const CompareReport& report) {
     text += FormatText("  %-22s %9.2f %7.2f %9.3f %9d %11.1e %13s %9s%s\n", r.name.c_str(), r.cpu_s,
                        Ratio(r.cpu_s, report.free.front().cpu_s), r.median_solve_ms,
                        r.rejected_steps, r.max_from_first_m, apart_after.c_str(),
-                       r.ate_rmse_m ? FormatText("%.4f", *r.ate_rmse_m).c_str() : "-",
-                       r.feed.lost_at_ns ? "  lost" : "");
+                       AteText(r).c_str(), r.feed.lost_at_ns ? "  lost" : "");
   }
   return text;
 }
@@ -73,7 +78,15 @@ Json LockstepJson(const LockstepTotals& t) {
           {"max_from_first_rad", t.MaxDistance_rad()}};
 }
 
+/// Also why there is no error, where that is so.
+std::vector<std::string> TruthWarnings(const FreeResult& r) {
+  if (!r.truth_error) return {};
+  return r.truth_error->failure.empty() ? r.truth_error->warnings
+                                        : std::vector{r.truth_error->failure};
+}
+
 Json FreeJson(const FreeResult& r) {
+  const bool compared = r.AteRmse_m().has_value();
   return {
       {"trajectory", "free/" + r.name + "/trajectory.tum"},
       {"poses", r.poses.size()},
@@ -93,7 +106,10 @@ Json FreeJson(const FreeResult& r) {
       {"lost_at_s", r.feed.lost_at_ns ? Json(FormatSeconds(*r.feed.lost_at_ns)) : Json(nullptr)},
       {"max_from_first_m", r.max_from_first_m},
       {"parts_at_s", r.parts_at_ns ? Json(FormatSeconds(*r.parts_at_ns)) : Json(nullptr)},
-      {"ate_rmse_m", r.ate_rmse_m ? Json(*r.ate_rmse_m) : Json(nullptr)}};
+      {"ate_rmse_m", r.AteRmse_m() ? Json(*r.AteRmse_m()) : Json(nullptr)},
+      {"truth_pairs", compared ? Json(r.truth_error->pairs) : Json(nullptr)},
+      {"truth_covered_share", compared ? Json(r.truth_error->covered_share) : Json(nullptr)},
+      {"truth_warnings", TruthWarnings(r)}};
 }
 
 CsvRow RowOf(const std::string& name, const Json& values) {
@@ -145,6 +161,7 @@ std::string CompareJson(const CompareRequest& request, const CompareReport& repo
   const Json json = {
       {"command_line", request.command_line},
       {"is_whole", report.is_whole},
+      {"warnings", report.warnings},
       {"input", request.inputs},
       {"truth", request.truth.empty() ? Json(nullptr) : Json(request.truth)},
       {"lockstep_options",

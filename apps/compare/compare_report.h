@@ -20,6 +20,8 @@ struct CompareReport {
   /// Variants that differ in more than the solution of a window.
   std::vector<std::string> not_in_lockstep;
   std::vector<FreeResult> free;
+  /// About the request and the truth's file; those of the runs are theirs.
+  std::vector<std::string> warnings;
   bool is_whole = false;  ///< It came to its end: no signal ended it early.
 };
 

@@ -9,7 +9,7 @@
 
 #include "apps/compare/compare_request.h"
 #include "apps/compare/feed_recording.h"
-#include "core/io/trajectory_reader.h"
+#include "apps/compare/truth_error.h"
 #include "core/report/window_totals.h"
 
 namespace trajlo {
@@ -28,8 +28,12 @@ struct FreeResult {
   std::size_t poses_compared = 0;
   double max_from_first_m = 0.0;
   std::optional<std::int64_t> parts_at_ns;
-  /// Against the truth: position, after SE(3) alignment.
-  std::optional<double> ate_rmse_m;
+  /// Nothing without truth.
+  std::optional<TruthError> truth_error;
+
+  std::optional<double> AteRmse_m() const {
+    return truth_error ? truth_error->ate_rmse_m : std::nullopt;
+  }
 };
 
 /// Runs the variant on the recording and writes `free/<name>/trajectory.tum` and `windows.csv`.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +12,21 @@
 
 namespace trajlo {
 
-/// Reads the truth; throws InputError.
-TimedPoses ReadTruth(const std::filesystem::path& path);
+/// A run against the truth.
+struct TruthError {
+  /// Root mean square of the position errors after SE(3) alignment, m. Nothing if the two cannot be
+  /// compared; `failure` says why.
+  std::optional<double> ate_rmse_m;
+  std::string failure;
+  std::size_t pairs = 0;
+  double covered_share = 0.0;  ///< Of the time of the run.
+  /// What makes the comparison doubtful, as trajlo_evaluate says it.
+  std::vector<std::string> warnings;
+};
 
-/// The root mean square of the position errors after SE(3) alignment, m.
-/// Throws EvaluationError if the two cannot be compared.
-double PositionError(const TimedPoses& truth, const std::vector<StampedPose>& estimate);
+/// Reads the truth; what is odd about the file goes to `warnings`. Throws InputError.
+TimedPoses ReadTruth(const std::filesystem::path& path, std::vector<std::string>* warnings);
+
+TruthError CompareWithTruth(const TimedPoses& truth, const std::vector<StampedPose>& estimate);
 
 }  // namespace trajlo

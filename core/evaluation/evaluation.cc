@@ -171,7 +171,7 @@ void DoubtTruth(const TimedPoses& estimate, const TimedPoses& truth,
   if (estimate.HasStamps() && truth.HasStamps()) {
     WarnOfOtherCauses(estimate, truth, options.association, evaluation);
   }
-  if (evaluation->has_orientation) DoubtRotations(evaluation);
+  if (evaluation->has_orientation && options.doubt_rotations) DoubtRotations(evaluation);
 }
 
 }  // namespace

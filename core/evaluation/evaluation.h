@@ -37,6 +37,8 @@ struct EvaluationOptions {
   /// The estimate covers what lies between two poses that are at most this far apart.
   double max_estimate_gap_s = 1.0;
   DivergenceOptions divergence;
+  /// Warn of odd rotations; of no use where positions alone count.
+  bool doubt_rotations = true;
 };
 
 /// Statistics of the errors of one kind; a `count` of 0 means that this kind was not computed.

@@ -3,6 +3,7 @@
 import pathlib
 
 from trajlo_report import files, run_summary
+from trajlo_report.names import counted
 
 SAME_M = 1e-6  # as trajlo_compare_solvers: trajectories that are nearer count as the same
 
@@ -125,7 +126,29 @@ def of_runs(free):
         else:
             said.append(f"Position errors range from {small_length(errors[best])} ({best}) to "
                         f"{small_length(errors[worst])} ({worst}).")
+        if any(item["free"].get("truth_warnings") for item in free):
+            said.append("Whether these errors are those of the runs is in doubt: see the warnings.")
     return said
+
+
+def warnings(document):
+    """Those of the comparison, and what each run's comparison with the truth has: said once."""
+    runs = [item for item in document["variants"] if "free" in item]
+    names_of = {}
+    for item in runs:
+        for text in item["free"].get("truth_warnings") or []:
+            names_of.setdefault(text, []).append(item["name"])
+    return [*document.get("warnings", []),
+            *(f"{listed(names) if len(names) < len(runs) or len(runs) == 1 else 'all runs'}: {text}"
+              for text, names in names_of.items())]
+
+
+def compared(item):
+    """How much of a run stands behind its error."""
+    free = item["free"]
+    if free.get("truth_pairs") is None:
+        return "–"
+    return f"{counted(free['truth_pairs'], 'pose')}, {100 * free['truth_covered_share']:.0f} % of the time"
 
 
 def since_begin(folder, item):

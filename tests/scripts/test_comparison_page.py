@@ -90,6 +90,20 @@ class ComparisonPageTest(FolderTest):
         self.assertIn("twin: most poses are at other times", said)
         self.assertNotIn("equals", said)
 
+    def test_errors_come_with_what_is_compared_and_what_makes_it_doubtful(self):
+        text = self.draw()
+        self.assertNotIn("in doubt", text)
+        self.assertIn("–", self.row(text, "twin")[-1])
+        for item in self.document["variants"]:
+            item["free"].update(truth_pairs=258, truth_covered_share=0.3, truth_warnings=["in mm?"])
+        self.document["variants"][0]["free"]["truth_warnings"].append("two clocks")
+        self.document["warnings"] = ["line 3 is skipped"]
+        text = self.draw()
+        for said in ("Warning: line 3 is skipped", "Warning: all runs: in mm?",
+                     "Warning: plain: two clocks", "errors are those of the runs is in doubt"):
+            self.assertIn(said, text)
+        self.assertEqual(self.row(text, "twin")[-2:], ["0.0100 ?", "258 poses, 30 % of the time"])
+
     def test_times_count_from_the_start_and_not_from_1970(self):
         text = self.draw()
         self.assertIn("1.25", self.row(text, "rough"))
