@@ -18,6 +18,13 @@ WindowCost CostOf(Window window, RegistrationEvaluator* evaluator) {
   return cost;
 }
 
+/// Gauss-Newton leaves out the cost after its last step. `solved` has the weights that the variant
+/// minimised with.
+void AddLastCost(const Window& solved, RegistrationEvaluator* evaluator, SolveSummary* summary) {
+  const bool is_missing = summary->costs.size() == static_cast<std::size_t>(summary->iterations);
+  if (summary->finite && is_missing) summary->costs.push_back(CostOf(solved, evaluator).Total());
+}
+
 }  // namespace
 
 LockstepSolver::LockstepSolver(const std::vector<SolverVariant>& variants,
@@ -63,6 +70,7 @@ void LockstepSolver::Compare(const Window& window) {
     Stopwatch watch;
     record.summary = solvers_[record.variant]->Solve(&own);
     record.total_s = watch.Seconds();
+    AddLastCost(own, &evaluator_, &record.summary);
     const std::vector<SE3> solution = own.Poses();
     if (record.variant == 0) first_solution = solution;
     record.from_first = MeasureStep(first_solution, solution);

@@ -23,7 +23,7 @@ struct LockstepRecord {
   /// Distance of the solution from that of the first variant, the largest over the control poses.
   StepSize from_first;
   double total_s = 0.0;
-  SolveSummary summary;
+  SolveSummary summary;  ///< Its costs have that of the last step, whatever the solver.
 };
 
 struct LockstepOptions {

@@ -51,12 +51,35 @@ TEST(Lockstep, AllSolversOfOneEnergyEndAtTheSamePosesAndCost) {
     EXPECT_LT(record.from_first.translation_m, 1e-6) << variants[record.variant].name;
     EXPECT_LT(record.from_first.rotation_rad, 1e-6);
     EXPECT_LE(record.cost_after.Total(), record.cost_before.Total() * (1.0 + 1e-12));
-    EXPECT_FALSE(record.summary.costs.empty());
     if (record.variant == 1) ceres.Add(record);
   }
   EXPECT_EQ(ceres.windows(), run.windows);
   EXPECT_GT(ceres.StepsPerWindow(), 0.5);
   EXPECT_LT(ceres.MaxDistance_m(), 1e-6);
+}
+
+TEST(Lockstep, EveryStepHasACostAndTheLastIsThatOfTheSolution) {
+  const std::vector<SolverVariant> variants = {Variant("gauss_newton", "solver.kind=gauss_newton"),
+                                               Variant("ceres", "")};
+  for (const LockstepRecord& record : RunAll(variants, 1).records) {
+    const SolveSummary& summary = record.summary;
+    ASSERT_EQ(summary.costs.size(), static_cast<std::size_t>(summary.iterations + 1))
+        << variants[record.variant].name;
+    const double after = record.cost_after.Total();
+    EXPECT_NEAR(summary.costs.back(), after, 1e-9 * after) << variants[record.variant].name;
+  }
+}
+
+TEST(Lockstep, TheLastCostIsOfTheKernelThatTheVariantMinimises) {
+  const auto records =
+      RunAll({Variant("none", "solver.kind=gauss_newton,expert.registration.kernel=none"),
+              Variant("none_ceres", "expert.registration.kernel=none")},
+             1)
+          .records;
+  for (std::size_t i = 0; i + 1 < records.size(); i += 2) {
+    const double ceres = records[i + 1].summary.costs.back();
+    EXPECT_NEAR(records[i].summary.costs.back(), ceres, 1e-6 * ceres);
+  }
 }
 
 /// What moves at the start is tried by several trackers, with solvers of their own.
