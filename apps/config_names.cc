@@ -54,9 +54,7 @@ std::vector<NamedConfig> NamedConfigsOrNone() {
 
 }  // namespace
 
-fs::path ConfigFolder() {
-  constexpr char kMend[] =
-      "; set TRAJLO_CONFIG_DIR to trajlo's config folder, or give --config a path";
+fs::path ConfigFolder(const std::string& flag) {
   std::error_code error;
   const char* set = std::getenv("TRAJLO_CONFIG_DIR");
   if (set != nullptr && *set != '\0') {
@@ -66,7 +64,9 @@ fs::path ConfigFolder() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path folder = program.parent_path().parent_path() / "share" / "trajlo" / "config";
   if (fs::is_directory(folder, error)) return folder;
-  throw ConfigError("the configurations are not in " + folder.string() + kMend);
+  throw ConfigError("the configurations are not in " + folder.string() +
+                    "; set TRAJLO_CONFIG_DIR to trajlo's config folder, or give " + flag +
+                    " a path");
 }
 
 std::vector<NamedConfig> NamedConfigs() {

@@ -15,8 +15,9 @@ struct NamedConfig {
 };
 
 /// The folder with the configurations: TRAJLO_CONFIG_DIR, else share/trajlo/config beside the
-/// folder of this program, where both the build and the installation have it. Throws ConfigError.
-std::filesystem::path ConfigFolder();
+/// folder of this program, where both the build and the installation have it. Throws ConfigError;
+/// `flag` is the one that takes a path in place of what is missing.
+std::filesystem::path ConfigFolder(const std::string& flag = "--config");
 
 /// Those of the sensors and datasets, then the general ones, by name. Throws ConfigError.
 std::vector<NamedConfig> NamedConfigs();

@@ -116,7 +116,7 @@ trajlo::CompareRequest RequestFromFlags(const trajlo::CommandLine& line) {
   trajlo::RequireExtrinsics(request.inputs, request.config);
   trajlo::RequireOptionsOfEachLidar(request.inputs, request.config.input);
   std::filesystem::path variants = FLAGS_variants;
-  if (variants.empty()) variants = trajlo::ConfigFolder() / "comparisons" / "solvers.yaml";
+  if (variants.empty()) variants = trajlo::ConfigFolder("--variants") / "comparisons/solvers.yaml";
   request.variants =
       Choose(trajlo::LoadVariants(variants, request.config), trajlo::SplitAtCommas(FLAGS_only));
   if (FLAGS_mode != "both" && FLAGS_mode != "lockstep" && FLAGS_mode != "free") {

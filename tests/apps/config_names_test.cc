@@ -78,6 +78,13 @@ TEST_F(ConfigNamesTest, MisspeltNamesAndMissingFilesAreExplained) {
   EXPECT_THAT(Error("mine.yaml"), HasSubstr("there is no file 'mine.yaml'"));
   unsetenv("TRAJLO_CONFIG_DIR");  // This test is in no bin/ folder with share/ beside it.
   EXPECT_THAT(Error("ouster"), HasSubstr("share/trajlo/config"));
+  EXPECT_THAT(Error("ouster"), HasSubstr("give --config a path"));
+  try {
+    ConfigFolder("--variants");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("give --variants a path"));
+  }
 }
 
 }  // namespace
