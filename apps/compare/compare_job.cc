@@ -13,6 +13,7 @@
 #include "apps/compare/lockstep_run.h"
 #include "apps/compare/truth_error.h"
 #include "apps/print_warnings.h"
+#include "core/comparison/variant_doubt.h"
 #include "core/io/atomic_file.h"
 #include "core/io/errors.h"
 #include "core/io/recording/open_recording.h"
@@ -156,6 +157,7 @@ ExitCode Judge(const CompareReport& report, bool has_truth, bool was_interrupted
 
 ExitCode RunComparison(const CompareRequest& request, const std::atomic<bool>& stop) {
   CompareReport report;
+  report.warnings = DoubtVariants(request.variants, request.config, request.lockstep);
   std::optional<TimedPoses> truth;
   if (!request.truth.empty()) {
     truth = ReadTruth(request.truth, &report.warnings);

@@ -70,6 +70,17 @@ TEST_F(TrajloCompareSolversTest, VariantsThatChangeMoreThanTheSolverAreComparedB
               HasSubstr("by whole runs only, as more changes than how a window is solved: two"));
 }
 
+TEST_F(TrajloCompareSolversTest, AVariantThatIsAnotherOneOnceMoreIsTold) {
+  WriteFile(temp_ / "mine.yaml",
+            "variants:\n  - {name: gn, set: \"solver.kind=gauss_newton\"}\n  - {name: gn_qr, set: "
+            "\"solver.kind=gauss_newton,expert.solver.ceres.linear_solver=dense_qr\"}\n");
+  const Outcome outcome = Call({"--variants=" + (temp_ / "mine.yaml").string(), "--mode=lockstep"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  const char* said = "'gn_qr': expert.solver.ceres.linear_solver has no effect";
+  EXPECT_THAT(outcome.err, HasSubstr(std::string("warning: ") + said));
+  EXPECT_THAT(nlohmann::json::parse(Result("comparison.json"))["warnings"].dump(), HasSubstr(said));
+}
+
 TEST_F(TrajloCompareSolversTest, EveryRowHasAllColumnsWhereTrajectoriesPart) {
   ASSERT_EQ(Call({"--only=gauss_newton,kernel_huber", "--mode=free"}).exit_code, 0);
   const auto json = nlohmann::json::parse(Result("comparison.json"));
