@@ -75,13 +75,14 @@ def draw(arguments):
         width = int(140 * figure.get_size_inches()[0])
         paths = theme.save(figure, folder / "figures" / name)
         drawn.append({"path": paths[0], "caption": caption, "width": width})
+    times = files.read_columns(folder / "lockstep.csv") if lockstep else {}
     report = folder / "report.html"
     files.write_atomically(report, page.render(
         "comparison.html", title=arguments.title, document=document, lockstep=lockstep,
         free=free, figures=drawn, versions=page.flatten(document["versions"]),
         conclusions=[
-            *words.of_end(document), *words.of_windows(lockstep), *words.by_whole_runs_only(document["variants"]),
-            *words.of_runs(free)],
+            *words.of_end(document), *words.of_windows(lockstep, times),
+            *words.by_whole_runs_only(document["variants"]), *words.of_runs(free)],
         undrawn=undrawn, few_poses=words.few_poses, warnings=words.warnings(document),
         compared=words.compared,
         leaves_s={item["name"]: words.since_begin(folder, item) for item in free},

@@ -4,6 +4,7 @@ import pathlib
 
 from trajlo_report import files, run_summary
 from trajlo_report.names import counted
+from trajlo_report.window_times import alike
 
 SAME_M = 1e-6  # as trajlo_compare_solvers: trajectories that are nearer count as the same
 
@@ -61,27 +62,43 @@ def changes_energy(variant):
     return "kernel" in variant["set"]
 
 
-def of_windows(lockstep):
-    alike = [item for item in lockstep if not changes_energy(item)]
-    if len(alike) < 2:
+def speed(items, table):
+    """Who is fastest and who is slowest, where that is more than noise."""
+    ms_of = {item["name"]: item["lockstep"]["median_total_ms"] for item in items}
+    first, fastest, slowest = items[0]["name"], min(ms_of, key=ms_of.get), max(ms_of, key=ms_of.get)
+    least, most = ms_of[fastest], ms_of[slowest]
+    fast = [name for name in ms_of if alike(table, fastest, name)]
+    slow = [name for name in ms_of if alike(table, slowest, name) and name not in fast]
+    if not slow:
+        who = listed(ms_of) if len(ms_of) < 4 else f"All {len(ms_of)} variants"
+        low, high = significant(least), significant(most)
+        return (f"{who} are alike in speed: for a window they take "
+                f"{f'about {low}' if low == high else f'{low} to {high}'} ms, and differ by no "
+                "more than noise does.")
+    text = (f"{listed(fast)} solve{'s' if len(fast) == 1 else ''} a window fastest, in "
+            f"{'' if len(fast) == 1 else 'about '}{significant(least)} ms")
+    if first not in fast:
+        text += f" ({first} takes {factor(ms_of[first] / least)} × as long)"
+    return (f"{text}; {listed(slow)} {'is' if len(slow) == 1 else 'are'} slowest, "
+            f"{factor(most / least)} × as long.")
+
+
+def of_windows(lockstep, table):
+    """`table`: the columns of lockstep.csv."""
+    same_cost = [item for item in lockstep if not changes_energy(item)]
+    if len(same_cost) < 2:
         return []
-    first = alike[0]
-    fastest = min(alike, key=lambda item: item["lockstep"]["median_total_ms"])
-    slowest = max(alike, key=lambda item: item["lockstep"]["median_total_ms"])
-    least, most = fastest["lockstep"]["median_total_ms"], slowest["lockstep"]["median_total_ms"]
-    text = f"{fastest['name']} solves a window fastest, in {significant(least)} ms"
-    if fastest is not first:
-        times = factor(first["lockstep"]["median_total_ms"] / least)
-        text += f" ({first['name']} takes {times} × as long)"
-    said = [f"{text}; {slowest['name']} is slowest, {factor(most / least)} × as long.",
+    said = [speed(same_cost, table),
             # Distances are from the first of all, which must minimise the same cost.
-            *agreement(alike if alike[0] is lockstep[0] else [],
+            *agreement(same_cost if same_cost[0] is lockstep[0] else [],
                        lambda item: item["lockstep"]["max_from_first_m"],
                        ("find a solution that equals", "finds a solution that equals"))]
     others = [item["name"] for item in lockstep if changes_energy(item)]
     if others:
-        said.append(f"{listed(others)} minimise another cost, so these two sentences leave "
-                    "them out.")
+        one = len(others) == 1
+        without = "this sentence leaves" if len(said) == 1 else "these two sentences leave"
+        said.append(f"{listed(others)} {'minimises' if one else 'minimise'} another cost, so "
+                    f"{without} {'it' if one else 'them'} out.")
     return said
 
 

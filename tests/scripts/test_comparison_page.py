@@ -5,9 +5,12 @@ import re
 import subprocess
 import unittest
 
+import numpy as np
+
 from support import SCRIPTS, FolderTest
 
 from trajlo_report import comparison_words as words
+from trajlo_report import window_times
 
 BEGIN_S = 1.6e9
 # name, set, ms a window, largest distance from the first's solution, from its trajectory, when
@@ -76,6 +79,46 @@ class ComparisonPageTest(FolderTest):
                      "micrometre; the farthest, kernel_huber, differs by 5.0 cm.",
                      "Position errors range from 1.0 cm (plain) to 2.0 cm (kernel_huber)."):
             self.assertIn(said, text)
+
+    def said_of_windows(self, ms_of, windows=8, kernels=()):
+        """What the page says of variants whose times (ms) are those."""
+        lockstep = [variant(name, "kernel" if name in kernels else "", np.median(ms), 0, 0, None, 0)
+                    for name, ms in ms_of.items()]
+        columns = [(window, name, ms[window % len(ms)])
+                   for name, ms in ms_of.items() for window in range(windows)]
+        return words.of_windows(lockstep, dict(zip(("window", "variant", "total_ms"),
+                                                   zip(*columns))))
+
+    def test_noise_makes_nobody_the_fastest(self):
+        for ms in ([1.05], [1.3, 0.8, 1.02], [0.99, 1.6]):
+            said = self.said_of_windows({"a": [1.0], "b": ms})[0]
+            self.assertRegex(said, "a and b are alike in speed: .* no more than noise")
+        self.assertIn("they take about 1 ms", self.said_of_windows({"a": [1.0], "b": [1.0]})[0])
+        self.assertIn("All 4 variants are alike", self.said_of_windows(
+            {"a": [1.0], "b": [1.01], "c": [1.02], "d": [1.03]})[0])
+
+    def test_those_who_are_alike_share_a_place(self):
+        said = self.said_of_windows({"a": [1.0], "b": [1.03], "c": [2.0], "d": [2.05]})[0]
+        self.assertEqual(said, "a and b solve a window fastest, in about 1 ms; c and d are "
+                               "slowest, 2.0 × as long.")
+
+    def test_windows_of_different_size_hide_no_difference(self):
+        sizes = [0.2, 1.0, 5.0, 0.3, 2.0, 9.0]
+        said = self.said_of_windows({"a": sizes, "b": [1.3 * ms for ms in sizes]}, windows=24)[0]
+        self.assertIn("a solves a window fastest", said)
+
+    def test_chance_is_that_of_a_coin(self):
+        self.assertAlmostEqual(window_times.chance_at_most(1, 3), 0.5)
+        self.assertAlmostEqual(window_times.chance_at_most(0, 6), 1 / 64)
+
+    def test_one_kernel_is_one(self):
+        times = {"a": [1.0], "b": [2.0], "tukey": [1.0], "huber": [1.0]}
+        self.assertIn("tukey minimises another cost, so these two sentences leave it out.",
+                      self.said_of_windows({name: times[name] for name in ("a", "b", "tukey")},
+                                           kernels=("tukey",)))
+        self.assertIn("huber and tukey minimise another cost, so this sentence leaves them out.",
+                      self.said_of_windows({name: times[name] for name in ("huber", "a", "b", "tukey")},
+                                           kernels=("tukey", "huber")))
 
     def test_a_comparison_that_was_cut_short_says_so(self):
         said = "did not finish"
