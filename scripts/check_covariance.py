@@ -15,7 +15,7 @@ For each stretch of time it prints the mean over the runs and the poses of the s
 If the covariance is right, that ratio lies in the band printed for 95 of 100 such experiments, and
 its mean over time all the more. That mean is the factor by which the covariance is optimistic; its
 95 % interval is a bootstrap over the runs, as the poses of a run are correlated (give ten or more:
-of fewer it is too narrow, and of one run nothing is concluded).
+of fewer it is too narrow; one run tells no more than that a factor outside of the band is not chance).
 Needs Debian's python3-numpy and python3-scipy.
 
 Exit codes: 0 done, 1 wrong usage, 2 input unreadable.
@@ -71,13 +71,32 @@ def read_covariances(path, start_ns):
     return np.array(times) * 1e-9, covariances
 
 
+def require_common_time(result, times, truth_file, t_times):
+    """Times since the start of the result."""
+    if len(t_times) < 2 or np.any(np.diff(t_times) <= 0):
+        raise files.ReportError(f"{truth_file} needs two poses or more, with stamps that increase")
+    if not np.any((times >= t_times[0]) & (times <= t_times[-1])):
+        raise files.ReportError(
+            f"{truth_file} has no time in common with {result}: from the start of the result on, it "
+            f"lasts from {t_times[0]:.3f} to {t_times[-1]:.3f} s, and the result to {times[-1]:.3f} s")
+
+
+def read_poses(path):
+    """Stamps, positions and rotations."""
+    times_ns, positions, quaternions = files.read_tum(path)
+    lengths = np.linalg.norm(quaternions, axis=1)
+    if not (np.isfinite(positions).all() and np.isfinite(lengths).all() and (lengths > 1e-6).all()):
+        raise files.ReportError(f"{path} has poses that are not finite, or have no rotation")
+    return times_ns, positions, Rotation.from_quat(quaternions)
+
+
 def read_run(result, truth_file):
     """Times since the start, estimated poses, covariances, and the true poses at these times."""
-    times_ns, positions, quaternions = files.read_tum(result / "trajectory.tum")
-    t_times_ns, t_positions, t_quaternions = files.read_tum(truth_file)
-    rotations, t_rotations = Rotation.from_quat(quaternions), Rotation.from_quat(t_quaternions)
+    times_ns, positions, rotations = read_poses(result / "trajectory.tum")
+    t_times_ns, t_positions, t_rotations = read_poses(truth_file)
     covariance_times, control_covariances = read_covariances(result / "covariance.csv", times_ns[0])
     times, t_times = (times_ns - times_ns[0]) * 1e-9, (t_times_ns - times_ns[0]) * 1e-9
+    require_common_time(result, times, truth_file, t_times)
     inside = (times >= t_times[0]) & (times <= t_times[-1])
     # The first control pose defines the world; nobody has estimated it.
     inside &= (times >= covariance_times[1] - 1e-9) & (times <= covariance_times[-1] + 1e-9)
@@ -104,7 +123,7 @@ def errors_of(result, truth_file, apart_s):
     second = np.flatnonzero(times >= times[0] + apart_s - 1e-6)
     first = np.array([np.argmin(np.abs(times - (times[i] - apart_s))) for i in second], dtype=int)
     if not len(second):
-        sys.exit(f"check_covariance.py: '{result}' is shorter than --apart")
+        sys.exit(f"check_covariance.py: '{result}' and its truth share less time than --apart")
     t, r = between(poses, first, second)
     true_t, true_r = between(true_poses, first, second)
     back = r.inv()
@@ -162,14 +181,17 @@ def print_verdict(ratios):
         shown = f"{low:7.3g} to {high:<7.3g}" if count > 1 else f"{'–':^18}"
         print(f"  {part:12}  {values.mean():12.3g} {shown}{right_low:8.2f} to {right_high:.2f}")
     factor = ratios["pose"].mean()
-    if count < 2:
-        print(f"Squared errors are {factor:.3g} times what the covariance says. One run does not tell "
-              "whether that is more than chance: give ten or more.")
-        return
-    low, high = interval(ratios["pose"].mean(axis=0))
     right_low, right_high = band("pose", count)
     word = ("right, as far as these runs can tell" if right_low <= factor <= right_high else
             "optimistic" if factor > 1.0 else "pessimistic")
+    if count < 2:
+        print(f"Squared errors are {factor:.3g} times what the covariance says"
+              + (". One run does not tell whether that is more than chance: give ten or more."
+                 if right_low <= factor <= right_high else
+                 f", outside of the band of a right one: it is {word}. To know by how much, give ten "
+                 "runs or more."))
+        return
+    low, high = interval(ratios["pose"].mean(axis=0))
     print(f"Squared errors are {factor:.3g} times ({low:.3g} to {high:.3g}) what the covariance says: "
           f"it is {word}.")
 

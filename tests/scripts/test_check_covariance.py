@@ -75,6 +75,43 @@ class CheckCovarianceTest(FolderTest):
         self.assertIn("One run does not tell", done.stdout)
         self.assertNotRegex(done.stdout, "it is|inf|nan")
 
+    def test_of_one_run_what_cannot_be_chance_is(self):
+        for factor, word in ((100.0, "optimistic"), (1e-3, "pessimistic")):
+            done = self.check([self.make_run(1, factor)])
+            self.factor_of(done)
+            self.assertIn(f"outside of the band of a right one: it is {word}.", done.stdout)
+            self.assertNotIn("more than chance", done.stdout)
+
+    def test_a_truth_of_another_time_is_named(self):
+        result = self.make_run(1, 1.0).partition("=")[0]
+        truth = self.make_run(2, 1.0, start_s=START_S + 100).partition("=")[2]
+        done = self.check([f"{result}={truth}"])
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, f"{truth} has no time in common with .*/1/result: from the "
+                                      "start of the result on, it lasts from 100.000 to 103.000 s, "
+                                      "and the result to 3.000 s")
+
+    def test_a_truth_that_cannot_be_interpolated_is_named(self):
+        run = self.make_run(1, 1.0)
+        path = self.folder / "1/truth.tum"
+        lines = path.read_text().splitlines()
+        for some in (lines[:1], lines[:3] + lines[2:]):
+            path.write_text("\n".join(some) + "\n")
+            done = self.check([run])
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("truth.tum needs two poses or more", done.stderr)
+
+    def test_a_truth_with_poses_that_are_none_is_named(self):
+        run = self.make_run(1, 1.0)
+        path = self.folder / "1/truth.tum"
+        lines = path.read_text().splitlines()
+        for values in ("nan 0 0 0 0 0 1", "0 0 0 0 0 0 0"):
+            stamp = lines[5].split()[0]
+            path.write_text("\n".join([*lines[:5], f"{stamp} {values}", *lines[6:]]) + "\n")
+            done = self.check([run])
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("truth.tum has poses that are not finite", done.stderr)
+
     def test_where_the_map_lies_in_the_world_does_not_matter(self):
         here = self.check([self.make_run(1, 1.0)])
         there = self.check([self.make_run(1, 1.0, Rotation.from_rotvec([0.3, -0.2, 0.5]))])
@@ -100,7 +137,7 @@ class CheckCovarianceTest(FolderTest):
     def test_runs_that_are_too_short_are_refused(self):
         done = self.check([self.make_run(1, 1.0)], "--apart=5")
         self.assertNotEqual(done.returncode, 0)
-        self.assertIn("shorter than --apart", done.stderr)
+        self.assertIn("share less time than --apart", done.stderr)
 
 
 def left_jacobian(theta):
