@@ -24,6 +24,27 @@ std::string_view TakeField(std::string_view* line) {
   return TakeWord(&field).empty() ? word : std::string_view();
 }
 
+/// Whether a heading names w as the last of the quaternion, and not as the first.
+bool HasScalarLast(std::string_view heading) {
+  const auto names_w = [](std::string_view field) {
+    return field.find_first_of("wW") != std::string_view::npos;
+  };
+  std::array<std::string_view, 8> fields;
+  for (std::string_view& field : fields) {
+    const std::size_t comma = heading.find(',');
+    field = heading.substr(0, comma);
+    heading.remove_prefix(comma == std::string_view::npos ? heading.size() : comma + 1);
+  }
+  return !names_w(fields[4]) && names_w(fields[7]);
+}
+
+void CheckHeading(const std::filesystem::path& path, std::string_view heading) {
+  if (!HasScalarLast(heading)) return;
+  throw InputError(path, "the heading has w last in the quaternion, and EuRoC's csv has it first",
+                   "Order the columns as 't_ns,x,y,z,qw,qx,qy,qz', or write TUM's format, 'stamp x "
+                   "y z qx qy qz qw' with stamps in seconds and blanks between the columns.");
+}
+
 /// No truth has poses as often as this. Stamps in seconds, ms or us give less if taken as ns.
 constexpr double kShortestPeriod_ns = 2e5;
 
@@ -51,10 +72,14 @@ std::vector<StampedPose> ParseEurocCsv(const std::filesystem::path& path, std::s
   MeaningfulLines lines(text);
   bool first = true;
   for (std::string_view line; lines.Next(&line); first = false) {
+    const std::string_view whole_line = line;
     const std::string_view stamp = TakeField(&line);
     double stamp_number = 0.0;
     bool well_formed = ParseNumber(stamp, &stamp_number);
-    if (first && !well_formed) continue;
+    if (first && !well_formed) {
+      CheckHeading(path, whole_line);
+      continue;
+    }
     std::array<double, 7> v{};
     for (double& value : v) well_formed = well_formed && ParseNumber(TakeField(&line), &value);
     if (!well_formed) {

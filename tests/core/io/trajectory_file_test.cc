@@ -91,9 +91,20 @@ TEST_F(TrajectoryFileTest, StampsInMillisecondsAreRefused) {
   EXPECT_THAT(ErrorOf("1700000000000.250 0 0 0 0 0 0 1\n"), HasSubstr("ns, us or ms"));
 }
 
+TEST_F(TrajectoryFileTest, AHeadingWithTheScalarLastIsNotReadAsEurocs) {
+  EXPECT_THAT(ErrorOf("timestamp,tx,ty,tz,qx,qy,qz,qw\n1700000000000000000,1,2,3,0,0,0,1\n"),
+              ::testing::AllOf(HasSubstr("has w last"), HasSubstr("TUM's format")));
+  for (const char* heading : {"timestamp,x,y,z,qw,qx,qy,qz",
+                              "t,p_x [m],p_y [m],p_z [m],q_w [],q_x "
+                              "[],q_y [],q_z [],v_x,w_x",
+                              "a,b,c,d,e,f,g,h", "t,"}) {
+    EXPECT_EQ(Read(std::string(heading) + "\n5,1,2,3,1,0,0,0\n").t_ns.size(), 1u) << heading;
+  }
+}
+
 TEST_F(TrajectoryFileTest, StampsOfACsvThatAreNoNanosecondsAreRefused) {
   const auto csv = [](const std::vector<std::string>& stamps) {
-    std::string text = "timestamp,tx,ty,tz,qx,qy,qz,qw\n";
+    std::string text = "timestamp,tx,ty,tz,qw,qx,qy,qz\n";
     for (const std::string& stamp : stamps) text += stamp + ",1,2,3,0,0,0,1\n";
     return text;
   };
