@@ -16,10 +16,11 @@ LISTED = 3  # of settings that tie
 
 
 def other_options(findings, point):
-    """What a setting sets besides the levels of factors: {option: text}."""
-    of_factors = {key for name, level in point.levels.items()
-                  for key in findings.study.factor(name).options(level)}
-    return {key: text for key, text in point.settings.items() if key not in of_factors}
+    """What a setting sets besides the levels of factors, or otherwise than these: {option: text}."""
+    of_factors = {}
+    for name, level in point.levels.items():
+        of_factors.update(findings.study.factor(name).options(level))
+    return {key: text for key, text in point.settings.items() if of_factors.get(key) != text}
 
 
 def setting_text(findings, row):

@@ -59,10 +59,12 @@ class Study:
 
 
 def make_point(experiment, levels, extra=None):
-    """A point from levels, and from options that are no factors."""
-    settings = dict(extra or {})
+    """A point from levels, and from options that are no factors: these are what somebody wrote about
+    this very point, and stand above those that a level brings along."""
+    settings = {}
     for name, level in levels.items():
         settings.update(experiment.factor(name).options(level))
+    settings.update(extra or {})
     options = {key: text for key, text in settings.items() if not key.startswith(SIMULATE)}
     parameters = {key.removeprefix(SIMULATE): text for key, text in settings.items()
                   if key.startswith(SIMULATE)}

@@ -127,6 +127,15 @@ class PointsTest(PretendedTest):
         points = self.points(text)
         self.assertEqual([point.marks for point in points], [("defaults",), ("chosen",)])
 
+    def test_an_option_that_a_mark_states_stands_above_that_of_a_factor_or_of_the_centre(self):
+        grid = ONE_AT_A_TIME.replace("one_at_a_time", "grid").replace("{window.segments: 5, ",
+                                                                    "{rules: other, ")
+        chosen = self.points(grid)[-1]
+        self.assertEqual((chosen.marks, chosen.options), (("chosen",), {"a.b": "2"}))
+        center = self.points(ONE_AT_A_TIME + "center: {rules: other}\n")[-1]
+        self.assertEqual((center.marks, center.options),
+                         (("chosen",), {"window.segments": "5", "a.b": "2"}))
+
     def test_one_at_a_time_takes_what_the_program_shows_as_the_centre(self):
         points = self.points(ONE_AT_A_TIME)
         self.assertEqual([(point.levels, point.marks) for point in points], [

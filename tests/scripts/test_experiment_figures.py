@@ -245,6 +245,12 @@ class FiguresTest(PretendedTest):
             one, other = (line.get_transform().transform(line.get_xydata())[0] for line in drawn)
             self.assertGreater(math.dist(one, other) * 72 / figure.dpi, 5)
 
+    def test_an_option_that_a_mark_sets_otherwise_than_its_factors_is_named(self):
+        text = ONE_AT_A_TIME.replace("sequences", "marks: {odd: {rules: theirs, c.d: 7}}\nsequences")
+        findings = self.findings(text)
+        self.assertEqual(conclusion.setting_text(findings, findings.marks["odd"]),
+                         "“odd”: sigma = 1 m, b = 2, rules = theirs, c.d = 7")
+
     def test_the_best_may_be_the_reference_itself(self):
         worse = self.findings(GRID, lambda levels, *_: 0.01 if levels == {
             "a.sigma_m": 1, "a.kernel": "huber"} else 0.02)
