@@ -110,9 +110,8 @@ def collect(plan):
             "group": run.sequence.group, "seed": run.sequence.seed or None,
             **level_values(study, point, base),
             **{key: value for key, value in base.items() if key not in LEFT_OUT},
-            "cpu_ms_per_data_second": milliseconds(results.cpu_per_data_second(
-                base["cpu_s"], base["duration_s"])),
-            **window_values(folder), **flag_values(folder), "inlier_share": base["inlier_share"],
+            "cpu_ms_per_data_second": milliseconds(base["cpu_s_per_data_second"]),
+            **window_values(folder), **flag_values(folder),
             "program": program.get("version"), "program_digest": program.get("digest"),
             "config": f"{run.folder}/result/config.yaml",
             "command": repeat_command(plan, run, number, folder)})

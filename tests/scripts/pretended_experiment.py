@@ -21,6 +21,11 @@ FLAGS = """t_s,flags,flag_names
 """
 
 
+# Totals of the whole run, of which the truth covers the half.
+RUN = {"exit": {"code": 0, "reason": "ok"}, "result": {"duration_s": 4.0, "poses_flagged": 2},
+       "windows": {"inlier_share": 0.6}}
+
+
 def evaluation(error):
     return {"estimates": [{
         "diverged": error is None, "pairs": 10, "duration_s": 2.0, "completeness": 1.0,
@@ -62,3 +67,4 @@ class PretendedTest(FolderTest):
         self.write(f"{folder}/evaluation/evaluation.json", json.dumps(evaluation(error)))
         self.write(f"{folder}/result/windows.csv", WINDOWS)
         self.write(f"{folder}/result/flags.csv", FLAGS)
+        self.write(f"{folder}/result/run.json", json.dumps(RUN))

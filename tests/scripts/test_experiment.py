@@ -232,8 +232,30 @@ class TableTest(PretendedTest):
         self.assertAlmostEqual(row["smallest_eigenvalue_median"], 0.15)
         self.assertEqual((row["smallest_eigenvalue_min"], row["share_flagged"], row["share_gap"],
                           row["share_lost"]), (0.1, 0.5, 0.25, 0.0))
-        self.assertEqual(row["cpu_ms_per_data_second"], 500.0)
         self.assertIn("trajlo_run 0.1.0", row["program"])
+
+    def test_time_for_a_second_of_data_is_of_all_data_and_not_only_of_what_the_truth_covers(self):
+        row = self.rows()[0]
+        self.assertEqual((row["cpu_s"], row["duration_s"], row["cpu_ms_per_data_second"]),
+                         (1.0, 2.0, 250.0))
+
+    def test_the_share_of_inliers_is_the_mean_over_the_windows(self):
+        self.assertAlmostEqual(self.rows()[0]["inlier_share"], 0.7)
+
+    def test_a_killed_run_has_what_its_windows_say_and_no_zeros_for_what_it_did_not_write(self):
+        batch = self.batch(SMALL)
+        self.finish(batch, lambda *_: 0.1)
+        folder = self.places.output / batch.runs[0].folder
+        status = json.loads((folder / "status.json").read_text())
+        (folder / "status.json").write_text(json.dumps(
+            {**status, "exit_code": -9, "reason": "longer than 1 s"}))
+        (folder / "result" / "run.json").write_text(json.dumps(
+            {"exit": {"code": None, "reason": "running"}, "windows": {"inlier_share": 0.0},
+             "result": {"duration_s": 0.0, "poses_flagged": 0}}))
+        row = table.collect(batch)[0]
+        self.assertEqual((row["result"], row["poses_flagged"], row["cpu_ms_per_data_second"]),
+                         ("x", None, None))
+        self.assertAlmostEqual(row["inlier_share"], 0.7)
 
     def test_every_column_is_described(self):
         columns = [name for name in self.rows()[0] if "." not in name]  # those with dots are options

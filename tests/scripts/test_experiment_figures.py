@@ -114,7 +114,7 @@ class FiguresTest(PretendedTest):
         names, costs, errors, front = tradeoff(findings, "hall_os1_16")
         self.assertEqual(len(names), 6)
         self.assertEqual([(costs[i], round(errors[i], 6)) for i in front],
-                         [(1000.0, 2.2), (1500.0, 2.0)])
+                         [(500.0, 2.2), (750.0, 2.0)])
 
     def test_a_sampled_range_falls_into_parts_with_all_its_rows(self):
         findings = self.findings(SAMPLED)
