@@ -143,11 +143,13 @@ def has_failed(folder, status):
 
 
 def check_output(places, suite):
-    """Throws SuiteError where results of another suite are, or would be within a recording."""
+    """Throws SuiteError where results of another suite or experiment are, or would be within a
+    recording."""
     other = (read_json_if(places.output / "jobs.json") or {}).get("suite", "")
     if other and other != suite_path(suite) and pathlib.Path(other).is_file():
-        raise SuiteError(f"{places.output} holds the runs of {other}; name another folder with "
-                         "--output, or a suite of another name")
+        raise SuiteError(f"{places.output} holds the runs of {other}, and not of "
+                         f"{suite_path(suite)}; name another folder with --output, or give the "
+                         "file another name")
     output = places.output.absolute()
     for sequence in suite.sequences:
         for path in map(places.find, sequence.recording):

@@ -197,6 +197,16 @@ class TerminalTest(PretendedTest):
                               capture_output=True, check=False, cwd=self.folder)
         self.assertEqual(done.stderr, "experiment: row 1 was not run yet\n")
 
+    def test_an_experiment_of_the_same_name_from_another_folder_replaces_nothing(self):
+        self.finish(self.batch(SMALL), lambda *_: 0.1)
+        other = self.write("own/e.yaml", SMALL.replace("[3, 5]", "[5, 7]"))
+        done = subprocess.run([SCRIPTS / "experiment", other, "--build", self.places.build,
+                               "--output", self.places.output, "--report"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (1, (
+            f"experiment: {self.places.output} holds the runs of {self.folder}/e.yaml, and not of "
+            f"{other}; name another folder with --output, or give the file another name\n")))
+
     def test_an_experiment_of_the_project_is_called_by_its_name(self):
         file = ROOT / "config" / "experiments" / "weights.yaml"
         self.assertEqual(

@@ -296,7 +296,8 @@ class PlanTest(PlannedTest):
     def test_a_folder_is_that_of_one_suite(self):
         self.finish(self.plan())
         other = self.write("other/s.yaml", SUITE)
-        with self.assertRaisesRegex(SuiteError, f"holds the runs of {self.folder}/s.yaml; name"):
+        with self.assertRaisesRegex(SuiteError, f"holds the runs of {self.folder}/s.yaml, "
+                                    f"and not of {other}; name"):
             plan.make_plan(read_suite(other), self.places)
         (self.folder / "s.yaml").unlink()  # It was moved.
         plan.make_plan(read_suite(other), self.places)
