@@ -19,8 +19,18 @@ FLAGS = """t_s,flags,flag_names
 4.0,2,gap
 4.1,16,degenerate
 """
-
-
+SMALL = """
+design: {kind: grid}
+vary:
+  window.segments: [3, 5]
+  expert.registration.kernel: [none, huber]
+marks:
+  defaults: {}
+  chosen: {window.segments: 5, expert.registration.kernel: none}
+sequences:
+  - simulate: hall_os1_16
+    seeds: [1, 2]
+"""
 # Totals of the whole run, of which the truth covers the half.
 RUN = {"exit": {"code": 0, "reason": "ok"}, "result": {"duration_s": 4.0, "poses_flagged": 2},
        "windows": {"inlier_share": 0.6}}
