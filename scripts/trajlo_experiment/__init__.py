@@ -8,6 +8,8 @@
   table        results.csv: a row a run with what varied and every metric
   analysis     errors relative to a reference, ranks with confidence, Pareto fronts
   findings     rows, errors, factors and marks, as all figures look at them
+  effects      what each factor does to the error
+  conclusion   what was found, in sentences
   figures_*    figures for papers
   experiment_report  one self-contained page
 """

@@ -64,10 +64,25 @@ def pareto(costs, errors):
                   key=lambda i: costs[i])
 
 
+def recording_of(row):
+    """(group, seed). Other parameters of the scenario are another level of a factor, not another
+    recording."""
+    return row["group"], row["seed"]
+
+
 def recordings_of(rows):
-    """(group, seed), in the order of the experiment. Other parameters of the scenario are another
-    level of a factor, not another recording."""
-    return list(dict.fromkeys((row["group"], row["seed"]) for row in rows))
+    """In the order of the experiment."""
+    return list(dict.fromkeys(map(recording_of, rows)))
+
+
+def recordings_without_error(rows, metric):
+    """Those on which no run has an error, so that they say nothing about settings: {recording: whether
+    all of its runs failed}. Where one did not, it has no such metric."""
+    found = {recording: [row for row in rows if recording_of(row) == recording]
+             for recording in recordings_of(rows)}
+    return {recording: all(row["result"] == results.FAILED for row in own)
+            for recording, own in found.items()
+            if not any(math.isfinite(error_of(row, metric)) for row in own)}
 
 
 def error_matrix(rows, metric):
@@ -76,7 +91,7 @@ def error_matrix(rows, metric):
     recordings = recordings_of(rows)
     errors = np.full((len(points), len(recordings)), math.nan)
     for row in rows:
-        place = points.index(row["point"]), recordings.index((row["group"], row["seed"]))
+        place = points.index(row["point"]), recordings.index(recording_of(row))
         errors[place] = error_of(row, metric)
     return points, recordings, errors
 
@@ -142,8 +157,13 @@ def enough_seeds(recordings):
 
 
 def same_results(one, other):
-    """Whether two points have the same error, to the last digit, on every recording."""
-    return one.errors == other.errors
+    """Whether two points have the same error, to the last digit, on every recording, and not only
+    failures."""
+    return one.errors == other.errors and has_error(one)
+
+
+def has_error(ranked):
+    return any(math.isfinite(error) for errors in ranked.errors.values() for error in errors)
 
 
 def is_tie(one, other):

@@ -1,16 +1,10 @@
 # SPDX-License-Identifier: MIT
 """What an experiment found, in sentences, and what to be careful about."""
-import dataclasses
-import math
-import re
-
-import numpy as np
 import yaml
 
-from trajlo_experiment import analysis
-from trajlo_experiment.findings import level_text
+from trajlo_experiment import analysis, effects
+from trajlo_experiment.factors import level_of
 from trajlo_report import names
-
 
 LISTED = 3  # of settings that tie
 
@@ -31,18 +25,6 @@ def setting_text(findings, row):
     values += [f"{key} = {text}" for key, text in other_options(findings, point).items()]
     marks = [f"“{mark}”" for mark in analysis.marks_of(row) if mark != findings.study.reference]
     return ": ".join(text for text in (", ".join(marks), ", ".join(values)) if text)
-
-
-def parts_of(label):
-    """ "σ", "m" of the label "σ [m]" """
-    parts = re.fullmatch(r"(.+) \[(.+)\]", label)
-    return parts.groups() if parts else (label, "")
-
-
-def level_of(factor, level):
-    """ "σ = 0.1 m" of the label "σ [m]" """
-    name, unit = parts_of(factor.label)
-    return f"{name} = {level_text(level)} {unit}".rstrip()
 
 
 def change(score):
@@ -82,34 +64,13 @@ def which_is_best(findings, ranked):
             f"{why}.")
 
 
-def without_effect(findings, ranked):
-    """Factors whose settings, where nothing else differs, have the same errors on every run."""
-    levels = {point.name: point.levels for point in findings.study.points if point.in_design}
-    said = []
-    for factor in findings.study.factors:
-        alike = {}
-        for item in ranked:
-            if factor.name in levels.get(item.point, {}):
-                others = sorted((name, str(level)) for name, level in levels[item.point].items()
-                                if name != factor.name)
-                alike.setdefault(str(others), []).append(item)
-        compared = [items for items in alike.values() if len(items) > 1]
-        if compared and all(analysis.same_results(items[0], item)
-                            for items in compared for item in items):
-            said.append(f"{parts_of(factor.label)[0]} has no effect here: settings that differ in it "
-                        "alone gave exactly the same results.")
-    return said
-
-
 def about_best(findings, ranked):
     """The best setting, and how it compares with what the errors are relative to."""
     row_of = {row["point"]: row for row in findings.rows}
     best = ranked[0]
-    said = [which_is_best(findings, ranked)]
     if best.failed:
-        none = "No setting ended well on all recordings."
-        return [none, *said, f"It failed {best.failed} times."] if math.isfinite(best.score) else [
-            none]
+        return [f"No setting ended well on all {other(findings)}recordings."]
+    said = [which_is_best(findings, ranked)]
     marks = analysis.marks_of(row_of[best.point])
     reference = findings.study.reference
     if not findings.reference.is_marked:
@@ -128,86 +89,61 @@ def about_best(findings, ranked):
             f"“{reference}”{which}{scatter(findings, best)}."]
 
 
-@dataclasses.dataclass(frozen=True)
-class Level:
-    """What all runs with one value of a factor say together."""
-    text: str      # "σ = 0.1 m"
-    mean: float    # geometric, of the settings that ended well everywhere; infinite if none did
-    failed: int
-    runs: int
-
-    @property
-    def lost(self):
-        return self.failed / self.runs
-
-
-def levels_of(findings, factor):
-    bins = findings.bins(factor)
-    if findings.sampled and all(len({row["point"] for row in item.rows}) < 2 for item in bins):
-        return []  # Each level is one sample, in which all factors differ.
-    found = []
-    for item in bins:
-        scores = [findings.scores[name].score for name in {row["point"] for row in item.rows}
-                  if name in findings.scores]
-        finite = [score for score in scores if math.isfinite(score)]
-        failed = [math.isinf(error) for error in findings.errors(item.rows)]
-        if scores:
-            mean = float(np.exp(np.mean(np.log(finite)))) if finite else math.inf
-            found.append(Level(level_of(factor, item.label), mean, sum(failed), len(failed)))
-    return found
-
-
-def ratio_of(levels):
-    """Between the means of the worst and the best; a value with which no setting ended well is worse
-    than any other."""
-    means = [level.mean for level in levels]
-    return max(means) / min(means) if math.isfinite(min(means, default=math.inf)) else 1.0
-
-
-def of_runs(level):
-    return f"{level.failed} of {names.counted(level.runs, 'run')} failed with {level.text}"
-
-
-def about_factors(findings):
-    """The factor whose values differ most in their mean error, and the value that fails most."""
-    found = {factor.label: levels_of(findings, factor) for factor in findings.study.factors}
-    found = {label: levels for label, levels in found.items() if len(levels) > 1}
-    if not found:
+def about_failures(findings, ranked):
+    failing = sum(item.failed > 0 for item in ranked)
+    if not failing or ranked[0].failed:  # then that was said of all of them
         return []
-    most = max(found, key=lambda label: ratio_of(found[label]))
-    rest = [level for level in found[most] if math.isfinite(level.mean)]
-    lost = [level for level in found[most] if math.isinf(level.mean)] if rest else []
-    if lost:
-        said = [f"{parts_of(most)[0]} matters most: " + ", ".join(map(of_runs, lost))
-                + ", and no setting with it ended well on all recordings."]
-        if len(rest) > 1:
-            said += [f"Between its other values the mean error differs by a factor of "
-                     f"{ratio_of(rest):.1f}."]
-    elif ratio_of(rest) >= 1.05:
-        said = [f"{parts_of(most)[0]} matters most: between its values the mean error differs by a factor of "
-                f"{ratio_of(rest):.1f}."]
-    else:
-        said = ["No factor by itself changes the mean error by more than 5 %."]
-    worst, least = max((sorted(levels, key=lambda level: -level.lost)[::len(levels) - 1]
-                        for levels in found.values()), key=lambda ends: ends[0].lost - ends[1].lost)
-    if worst.lost > least.lost and worst not in lost:
-        said += [f"{of_runs(worst)}, {least.failed} of {least.runs} with {least.text}."]
+    return [f"{failing} of {len(ranked)} settings failed on at least one "
+            f"{other(findings)}recording."]
+
+
+def other(findings):
+    """ "other " where recordings are left out."""
+    return "other " if findings.left_out else ""
+
+
+def recording_title(recording):
+    group, seed = recording
+    return names.title(f"{group}-seed{seed}" if seed else group)
+
+
+def about_left_out(findings):
+    """Recordings that tell nothing about settings, since no run has an error on them."""
+    no_metric = f"no run that ended well has {findings.metric}"
+    if findings.left_out and not findings.rows:
+        why = "no run has ended well" if all(findings.left_out.values()) else no_metric
+        return [f"Settings are not compared: {why}."]
+    said = []
+    for have_failed, why in ((True, "no run has ended well"), (False, no_metric)):
+        found = [recording for recording, failed in findings.left_out.items() if failed == have_failed]
+        if found:
+            said.append(f"On {names.counted(len(found), 'recording')} {why}, and what follows leaves "
+                        f"{'it' if len(found) == 1 else 'them'} out: "
+                        f"{'; '.join(map(recording_title, found))}.")
     return said
 
 
-def about_failures(findings, ranked):
-    failing = sum(item.failed > 0 for item in ranked)
-    if not failing:
+def about_unranked(findings, ranked):
+    """Settings that are not compared."""
+    count = len(findings.study.points)
+    if len(ranked) == count or not findings.rows:
         return []
-    return [f"{failing} of {len(ranked)} settings failed on at least one recording."]
+    where, yet = f"on all {other(findings)}recordings", "" if findings.has_ended else " yet"
+    if not ranked:
+        what = f"has {findings.metric}" if findings.has_ended else "has ended"
+        return [f"No setting {what} {where}{yet}."]
+    rest = count - len(ranked)
+    what = f"no {findings.metric}" if findings.has_ended else "not ended"
+    said = "is not compared: it has" if rest == 1 else "are not compared: they have"
+    return [f"{rest} of {count} settings {said} {what} {where}{yet}."]
 
 
 def sentences(findings):
-    ranked = findings.ranked()
-    if not ranked:
-        return ["No setting has ended on all recordings yet."] if findings.rows else []
-    return [*about_best(findings, ranked), *without_effect(findings, ranked), *about_factors(findings),
-            *about_failures(findings, ranked)]
+    ranked, said = findings.ranked(), about_left_out(findings)
+    if ranked:
+        said += [*about_best(findings, ranked), *effects.without_effect(findings, ranked),
+                 *effects.about_factors(findings), *about_failures(findings, ranked)]
+    return said + about_unranked(findings, ranked)
 
 
 def tunes_itself(options):
@@ -236,6 +172,8 @@ def warnings(plan):
 
 def caution(findings):
     """What the seeds are worth."""
+    if not findings.reference.errors:
+        return ""
     if not findings.has_intervals:
         return ("There are too few seeds to tell how far results would scatter with others. So no "
                 "intervals are given, and small differences may be chance.")

@@ -6,7 +6,8 @@ import re
 from trajlo_batch import command_line, results
 from trajlo_batch.batch_report import about_outdated, summary
 from trajlo_experiment import analysis, conclusion, figures, figures_tradeoff, table
-from trajlo_experiment.findings import Findings, level_text
+from trajlo_experiment.factors import level_text
+from trajlo_experiment.findings import Findings
 from trajlo_report import page
 from trajlo_report.files import to_csv, write_atomically
 
@@ -104,7 +105,7 @@ def write_report(plan):
     rows = table.collect(plan)
     write_atomically(output / "results.csv", to_csv(rows))
     findings = Findings(study, rows)
-    drawn = figures.draw_all(findings, output / "figures") if findings.rows else []
+    drawn = figures.draw_all(findings, output / "figures")
     programs = [(name, f"{program['version']} ({program['digest']})")
                 for name, program in plan.programs.items()]
     shown = [name for name in RUN_COLUMNS if any(row.get(name) is not None for row in rows)]

@@ -2,6 +2,7 @@
 """What an experiment varies. A factor has levels; a level sets one or more options of a run."""
 import dataclasses
 import math
+import re
 
 from trajlo_batch.suite import scalar_text
 from trajlo_batch.yaml_lines import Mapping, SuiteError, check
@@ -38,6 +39,11 @@ class Factor:
         """The one option that the levels are values of; nothing if there is no such option."""
         return next(iter(self.keys)) if list(self.keys.values()) == [None] else None
 
+    @property
+    def is_range(self):
+        """Not a list of values that somebody chose."""
+        return not math.isnan(self.low)
+
     def options(self, level):
         """What a run with this level sets: {key: text}."""
         if self.settings:
@@ -47,7 +53,7 @@ class Factor:
 
     def sample(self, share):
         """The level at this share, from 0 to 1, of the way through the range or the levels."""
-        if math.isnan(self.low):
+        if not self.is_range:
             return self.levels[min(int(share * len(self.levels)), len(self.levels) - 1)]
         return self.at(share)
 
@@ -91,6 +97,24 @@ def number_or_text(value):
 
 def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def level_text(level):
+    if isinstance(level, bool):
+        return "true" if level else "false"
+    return f"{level:g}" if is_number(level) else str(level)
+
+
+def parts_of(label):
+    """ "σ", "m" of the label "σ [m]" """
+    parts = re.fullmatch(r"(.+) \[(.+)\]", label)
+    return parts.groups() if parts else (label, "")
+
+
+def level_of(factor, level):
+    """ "σ = 0.1 m" of the label "σ [m]" """
+    name, unit = parts_of(factor.label)
+    return f"{name} = {level_text(level)} {unit}".rstrip()
 
 
 def read_levels(mapping, key, values):

@@ -29,7 +29,9 @@ def heat_maps(findings):
 
 def map_figures(findings):
     """Name, figure, caption."""
-    for index, factors in enumerate(heat_maps(findings)):
+    # So far all that ended may lie beside the design.
+    shown = [factors for factors in heat_maps(findings) if all(map(findings.bins, factors))]
+    for index, factors in enumerate(shown):
         name = "heat_map" if index == 0 else f"heat_map_{index + 1}"
         across, upwards = factors[:2]
         if findings.sampled:
@@ -48,7 +50,9 @@ def map_figures(findings):
 
 
 def all_figures(findings):
-    """Name, figure or nothing, caption."""
+    """Name, figure or nothing, caption; none where there is nothing to compare."""
+    if not findings.rows:
+        return
     kind = findings.study.design.kind
     if kind == designs.ONE_AT_A_TIME:
         yield "tornado", figures_tornado.draw_tornado(findings), (
@@ -57,8 +61,9 @@ def all_figures(findings):
     yield from map_figures(findings)
     about = ("about the centre" if kind == designs.ONE_AT_A_TIME else
              "over seeds and all other factors")
+    values = "each part of the range" if findings.sampled else "each value"
     yield "sensitivity", figures_sensitivity.draw_sensitivity(findings), (
-        f"Median and quartiles {about} for each value of a factor. A failed run counts as an "
+        f"Median and quartiles {about} for {values} of a factor. A failed run counts as an "
         "infinite error; × says how many failed.")
     for factor in findings.study.factors:
         if not factor.numeric and len(findings.bins(factor)) > 1:

@@ -10,8 +10,8 @@ from matplotlib.lines import Line2D
 
 from trajlo_experiment import analysis
 from trajlo_experiment.drawing import below, draw_marks, mark_handles, soften
-from trajlo_experiment.factors import LOG
-from trajlo_experiment.findings import level_text, place_among
+from trajlo_experiment.factors import LOG, level_text
+from trajlo_experiment.findings import place_among
 from trajlo_report import names, theme
 from trajlo_report.log_axis import plain_log
 

@@ -9,8 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 
 from trajlo_experiment.drawing import below
-from trajlo_experiment.factors import LOG, is_number
-from trajlo_experiment.findings import level_text
+from trajlo_experiment.factors import LOG, is_number, level_text
 from trajlo_report import theme
 
 HIGHLIGHTED = 0.1  # share of the settings whose lines stand out

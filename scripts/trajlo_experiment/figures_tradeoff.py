@@ -31,13 +31,14 @@ def tradeoff(findings, group):
 
 
 def draw_pareto(findings):
-    """A panel for each scenario; the numbers lead to the table of the page."""
-    found = [tradeoff(findings, group) for group in findings.groups]
-    if not any(front for *_, front in found):
+    """A panel for each scenario that has a front; the numbers lead to the table of the page."""
+    found = {group: tradeoff(findings, group) for group in findings.groups}
+    found = {group: values for group, values in found.items() if values[-1]}
+    if not found:
         return None
-    figure, grid = panels(len(findings.groups), 2.4)
-    for axes, group, (settings, costs, errors, front) in zip(grid, findings.groups, found):
-        draw_front(axes, findings, settings, costs, errors, front)
+    figure, grid = panels(len(found), 2.4)
+    for axes, (group, values) in zip(grid, found.items()):
+        draw_front(axes, findings, *values)
         axes.set_title(names.title(group))
         axes.set_xlabel(COST_LABEL)
     for axes in grid[::3]:
@@ -46,7 +47,7 @@ def draw_pareto(findings):
                       label="a setting, median over seeds"),
                Line2D([], [], marker="o", ms=4, lw=1, color=theme.METHODS[0],
                       label="nothing is better in both")]
-    if any(math.isinf(error) for _, _, errors, _ in found for error in errors):
+    if any(math.isinf(error) for _, _, errors, _ in found.values() for error in errors):
         handles.append(Line2D([], [], ls="", marker="x", ms=4, color=theme.END, label="fails"))
     below(figure, handles + mark_handles(findings, findings.marks))
     return figure

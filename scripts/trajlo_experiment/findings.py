@@ -8,7 +8,7 @@ import numpy as np
 from trajlo_batch import results
 from trajlo_experiment import analysis, designs
 from trajlo_experiment.experiment import CENTER
-from trajlo_experiment.factors import LOG, is_number
+from trajlo_experiment.factors import LOG, is_number, level_text
 from trajlo_report.names import decimals_of
 
 # How a metric is written on an axis: name, unit, what it is multiplied by, decimals in a cell.
@@ -17,7 +17,7 @@ SHOWN = {"ate_rmse_m": ("position error, RMSE", "cm", 100.0, 1),
          "rpe_1m_rmse_m": ("error over 1 m, RMSE", "cm", 100.0, 2),
          "rpe_10m_rmse_m": ("error over 10 m, RMSE", "cm", 100.0, 1),
          "kitti_translation_percent": ("relative translation error", "%", 1.0, 2)}
-BINS = 6  # of a range that was sampled
+BINS, PER_BIN = 6, 3  # of a range that was sampled: the most, and the least settings in one
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,10 +31,12 @@ class Bin:
 class Findings:
     def __init__(self, study, rows):
         self.study = study
-        # What was made with other options than the rest is not compared with it.
-        self.rows = [row for row in rows
-                     if row["result"] != results.UNFINISHED and not row["outdated"]]
         self.metric = study.metric
+        # What was made with other options than the rest is not compared with it.
+        ended = [row for row in rows if row["result"] != results.UNFINISHED and not row["outdated"]]
+        self.has_ended = len(ended) == len(rows)
+        self.left_out = analysis.recordings_without_error(ended, self.metric)
+        self.rows = [row for row in ended if analysis.recording_of(row) not in self.left_out]
         self.groups = list(dict.fromkeys(row["group"] for row in self.rows))
         self.design = [row for row in self.rows if row["in_design"]]
         self.failures = sum(row["result"] == results.FAILED for row in self.rows)
@@ -107,8 +109,8 @@ class Findings:
         values = list(dict.fromkeys(row[factor.name] for row in rows))
         if factor.numeric and all(map(is_number, values)):
             values.sort()
-            if len(values) > 2 * BINS and self.sampled:
-                return range_bins(factor, rows)
+            if self.sampled and factor.is_range:
+                return range_bins(factor, rows, values)
         else:
             order = {level: place for place, level in enumerate(factor.levels)}
             values.sort(key=lambda value: order.get(value, len(order)))
@@ -116,23 +118,20 @@ class Findings:
                     tuple(row for row in rows if row[factor.name] == value)) for value in values]
 
 
-def range_bins(factor, rows):
-    """Parts of a sampled range, equal on its axis."""
-    edges = [factor.at(i / BINS) for i in range(BINS + 1)]
+def range_bins(factor, rows, values):
+    """Parts of a sampled range with as many of its values each. In every one are settings enough that
+    what else differs between them has no great part in their mean."""
+    points = len({row["point"] for row in rows})
     found = []
-    for low, high in zip(edges, edges[1:]):
-        inside = tuple(row for row in rows if low <= row[factor.name] < high
-                       or (high == edges[-1] and row[factor.name] == high))
+    for part in np.array_split(values, min(BINS, max(2, points // PER_BIN), len(values))):
+        low, high = part[0].item(), part[-1].item()
         center = math.sqrt(low * high) if factor.scale == LOG else (low + high) / 2
-        if inside:
-            found.append(Bin(f"{low:.2g}–{high:.2g}", center, inside))
+        label = (level_text(low) if low == high else
+                 "–".join(level_text(end if factor.whole else float(f"{end:.2g}"))
+                          for end in (low, high)))
+        found.append(Bin(label, center, tuple(row for row in rows
+                                              if low <= row[factor.name] <= high)))
     return found
-
-
-def level_text(level):
-    if isinstance(level, bool):
-        return "true" if level else "false"
-    return f"{level:g}" if is_number(level) else str(level)
 
 
 def place_among(factor, level, levels):

@@ -14,9 +14,8 @@ from trajlo_batch.results import flatten
 from trajlo_batch.suite import Configuration
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_experiment import designs
-from trajlo_experiment.conclusion import level_of
 from trajlo_experiment.experiment import CENTER
-from trajlo_experiment.factors import SIMULATE, number_or_text, text_of
+from trajlo_experiment.factors import SIMULATE, level_of, number_or_text, text_of
 
 
 @dataclasses.dataclass

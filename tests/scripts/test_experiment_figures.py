@@ -4,10 +4,9 @@ import json
 import math
 import re
 import subprocess
-import types
 import unittest
 
-from pretended_experiment import PretendedTest
+from pretended_findings import GRID, ONE_AT_A_TIME, SAMPLED, FindingsTest, bowl
 from support import SCRIPTS
 
 from trajlo_batch import plan
@@ -15,60 +14,12 @@ from trajlo_experiment import (conclusion, experiment_report, figures_heat, figu
                                table)
 from trajlo_experiment.figures_parallel import axis_ticks, height_on_axis, spread_ticks
 from trajlo_experiment.figures_tornado import draw_tornado, swings
-from trajlo_experiment.figures_tradeoff import tradeoff
+from trajlo_experiment.figures_tradeoff import draw_pareto, tradeoff
 from trajlo_experiment.findings import Findings
 from trajlo_report import theme
 
-SEQUENCES = """
-sequences:
-  - {simulate: hall_os1_16, seeds: [1, 2, 3]}
-  - {simulate: spin_avia, seeds: [1, 2, 3]}
-"""
-GRID = """
-design: {kind: grid}
-vary:
-  a.sigma_m: {values: [0.1, 1, 10], label: "σ [m]"}
-  a.kernel: [none, huber]
-marks:
-  paper: {a.sigma_m: 1, a.kernel: huber}
-  other: {a.sigma_m: 3, a.kernel: huber}
-reference: paper
-""" + SEQUENCES
-ONE_AT_A_TIME = """
-design: {kind: one_at_a_time}
-center: {a.sigma_m: 1, a.b: 2}
-vary:
-  a.sigma_m: [0.1, 1, 10]
-  a.b: [1, 2, 3]
-  rules: {settings: {ours: {}, theirs: {c.d: 1}}}
-""" + SEQUENCES
-SAMPLED = """
-design: {kind: sobol, samples: 16}
-vary:
-  a.sigma_m: {from: 0.1, to: 10, scale: log}
-  a.b: {from: 1, to: 3}
-  a.kernel: [none, huber]
-""" + SEQUENCES
 
-
-def bowl(levels, group, seed):
-    """Best at 1, twice as bad on one scenario; large sigmas fail on the other with seed 3."""
-    sigma = levels.get("a.sigma_m", 1)
-    if sigma > 5 and group == "spin_avia" and seed == 3:
-        return None
-    worse = 1 + abs(math.log10(sigma)) + abs(levels.get("a.b", 2) - 2) / 10
-    worse *= 2 if levels.get("rules") == "theirs" else 1
-    return 0.01 * seed * worse * (2 if group == "spin_avia" else 1)
-
-
-class FiguresTest(PretendedTest):
-    def findings(self, text, error_of=bowl, finish=True):
-        batch = self.batch(text)
-        if finish:
-            self.finish(batch, error_of, lambda levels: 1.0 + levels.get("a.b", 1))
-        theme.apply()
-        return Findings(batch.suite, table.collect(batch))
-
+class FiguresTest(FindingsTest):
     def test_a_cell_is_the_median_over_its_seeds_in_centimetres(self):
         findings = self.findings(GRID)
         across, upwards = findings.study.factors
@@ -121,6 +72,21 @@ class FiguresTest(PretendedTest):
         bins = findings.bins(findings.study.factors[0])
         self.assertEqual(sum(len(item.rows) for item in bins), 16 * 6)
         self.assertLessEqual(len(bins), 6)
+        for samples, parts in ((4, 2), (8, 2), (64, 6)):
+            text = SAMPLED.replace("samples: 16", f"samples: {samples}")
+            findings = self.findings(text)
+            bins = findings.bins(findings.study.factors[0])
+            self.assertEqual([len(item.rows) // 6 for item in bins][:2],
+                             [math.ceil(samples / parts)] * 2)
+            self.assertEqual((len(bins), sum(len(item.rows) for item in bins)), (parts, samples * 6))
+
+    def test_values_that_somebody_chose_for_samples_stay_apart(self):
+        findings = self.findings(SAMPLED.replace("{from: 0.1, to: 10, scale: log}", str(
+            [value / 10 for value in range(1, 15)])).replace("{from: 1, to: 3}",
+                                                             "{from: 1, to: 5, whole: true}"))
+        sigma, whole = (findings.bins(factor) for factor in findings.study.factors[:2])
+        self.assertEqual([item.label for item in sigma][:3], ["0.1", "0.2", "0.3"])
+        self.assertEqual([item.label for item in whole], ["1", "2", "3", "4", "5"])
 
     def test_an_axis_of_the_parallel_plot_runs_from_its_least_to_its_most(self):
         findings = self.findings(GRID)
@@ -167,64 +133,6 @@ class FiguresTest(PretendedTest):
         self.assertIn("There are too few seeds", text)
         self.assertNotIn("95 %", text)
 
-    def test_a_value_that_always_fails_matters_most(self):
-        def error_of(levels, _, seed):
-            return None if levels["a.kernel"] == "huber" else 0.01 * levels["a.sigma_m"]
-
-        text = GRID[:GRID.index("marks")] + SEQUENCES
-        sentences = conclusion.sentences(self.findings(text, error_of))
-        self.assertIn("kernel matters most: 18 of 18 runs failed with kernel = huber, and no setting "
-                      "with it ended well on all recordings.", sentences)
-
-    def test_where_a_value_fails_more_often_that_is_said(self):
-        def error_of(levels, group, seed):
-            odd = levels["a.sigma_m"] == 1 and group == "spin_avia" and seed == 3
-            return None if odd and levels["a.kernel"] == "huber" else 0.01
-
-        text = GRID[:GRID.index("marks")] + SEQUENCES
-        sentences = conclusion.sentences(self.findings(text, error_of))
-        self.assertIn("No factor by itself changes the mean error by more than 5 %.", sentences)
-        self.assertIn("1 of 12 runs failed with σ = 1 m, 0 of 12 with σ = 10 m.", sentences)
-
-    def test_where_the_reference_failed_nothing_is_divided_by_it_and_that_is_said(self):
-        def error_of(levels, group, seed):
-            lost = levels == {"a.sigma_m": 1, "a.kernel": "huber"} and seed == 3
-            return None if lost else 0.01
-
-        findings = self.findings(GRID, error_of)
-        self.assertEqual(findings.ratio_label, "error / error of paper, on 4 of 6 recordings")
-        self.assertIn("The error of the first of them, on 4 of 6 recordings, is as high as that of "
-                      "“paper”", conclusion.sentences(findings)[1])
-
-    def test_the_conclusion_names_the_best_setting_and_the_factor_that_matters(self):
-        sentences = conclusion.sentences(self.findings(GRID))
-        self.assertEqual(sentences[0], "None of 7 settings is the best: 2 tie, (σ = 1 m, kernel = "
-                         "none), (σ = 1 m, kernel = huber); they gave exactly the same results. "
-                         "“paper” is among them.")
-        self.assertEqual(sentences[1], "kernel has no effect here: settings that differ in it "
-                         "alone gave exactly the same results.")
-        self.assertIn("σ matters most: 2 of 12 runs failed with σ = 10 m, and no setting with it "
-                      "ended well on all recordings.", sentences)
-        self.assertIn("Between its other values the mean error differs by a factor of 2.0.",
-                      sentences)
-        self.assertIn("2 of 7 settings failed on at least one recording.", sentences)
-
-    def test_what_the_seeds_scatter_more_than_it_differs_is_a_tie(self):
-        def error_of(levels, group, seed):
-            none = levels["a.kernel"] == "none"
-            return 0.01 * levels["a.sigma_m"] * (1 + (0.1 * (seed - 1.9) if none else 0.0))
-
-        sentences = conclusion.sentences(self.findings(GRID, error_of))
-        self.assertIn("2 tie, (σ = 0.1 m, kernel = huber), (σ = 0.1 m, kernel = none); their errors "
-                      "differ by less than seeds scatter", sentences[0])
-        self.assertIn("The error of the first of them is 90 % lower than that of “paper”",
-                      sentences[1])
-        self.assertFalse(any("no effect" in sentence for sentence in sentences))
-        clear = self.findings(GRID, lambda levels, _, seed: 0.01 * seed * levels["a.sigma_m"] * (
-            2 if levels["a.kernel"] == "none" else 1))
-        self.assertIn("The best of 7 settings is σ = 0.1 m, kernel = huber.",
-                      conclusion.sentences(clear)[0])
-
     def test_a_mark_is_told_from_the_reference_by_its_name_and_options_in_text_and_figures(self):
         text = GRID.replace("other: {a.sigma_m: 3", "tuned: {a.tuned: true, a.sigma_m: 1")
         batch = self.batch(text)
@@ -244,35 +152,6 @@ class FiguresTest(PretendedTest):
             self.assertEqual({line.get_marker() for line in drawn}, {"D", "*"})
             one, other = (line.get_transform().transform(line.get_xydata())[0] for line in drawn)
             self.assertGreater(math.dist(one, other) * 72 / figure.dpi, 5)
-
-    def test_an_option_that_a_mark_sets_otherwise_than_its_factors_is_named(self):
-        text = ONE_AT_A_TIME.replace("sequences", "marks: {odd: {rules: theirs, c.d: 7}}\nsequences")
-        findings = self.findings(text)
-        self.assertEqual(conclusion.setting_text(findings, findings.marks["odd"]),
-                         "“odd”: sigma = 1 m, b = 2, rules = theirs, c.d = 7")
-
-    def test_the_best_may_be_the_reference_itself(self):
-        worse = self.findings(GRID, lambda levels, *_: 0.01 if levels == {
-            "a.sigma_m": 1, "a.kernel": "huber"} else 0.02)
-        self.assertEqual(conclusion.sentences(worse)[0], "The best of 7 settings is σ = 1 m, "
-                         "kernel = huber. That is “paper”.")
-
-    def test_sigmas_that_vary_while_the_weights_tune_themselves_are_no_sweep(self):
-        def plan_of(options, varied):
-            factors = [types.SimpleNamespace(keys={key: None}, settings={}) for key in varied]
-            point = types.SimpleNamespace(name="a", in_design=True)
-            runs = [types.SimpleNamespace(options=options, configuration=point),
-                    types.SimpleNamespace(options=tuned, configuration=mark)]
-            return types.SimpleNamespace(runs=runs, suite=types.SimpleNamespace(
-                factors=factors, points=[point, mark]))
-
-        mark = types.SimpleNamespace(name="b", in_design=False)
-        tuned, fixed = "motion_prior: {self_tuning: true}", "motion_prior: {self_tuning: false}"
-        density = "expert.motion_prior.translation_m2_s3"
-        self.assertIn(f"sweep of {density} while", conclusion.warnings(plan_of(tuned, [density]))[0])
-        for options, varied in ((fixed, [density]), (tuned, ["expert.registration.kernel"]),
-                                (tuned, [density, "motion_prior.self_tuning"]), ("", [density])):
-            self.assertEqual(conclusion.warnings(plan_of(options, varied)), [])
 
     def test_ticks_of_the_parallel_plot_never_lie_on_each_other(self):
         ticks = [(0.0, "a"), (0.01, "b"), (0.5, "c"), (0.55, "d"), (0.97, "e"), (1.0, "f")]
@@ -307,8 +186,30 @@ class FiguresTest(PretendedTest):
         self.assertIn("heat_map", drawn)
 
     def test_when_everything_fails_the_page_says_so(self):
-        _, text = self.report(GRID, lambda *_: None)
+        drawn, text = self.report(GRID, lambda *_: None)
         self.assertIn("42 with an x", text)
+        self.assertEqual(drawn, set())
+        self.assertNotIn("<h2>Best settings</h2>", text)
+
+    def test_a_recording_that_leaves_nothing_takes_no_part_in_figures(self):
+        batch = self.batch(GRID)
+        self.finish(batch, bowl)
+        for run in batch.runs:
+            if run.sequence.group == "spin_avia":
+                status = self.places.output / run.folder / "status.json"
+                status.write_text(json.dumps({**json.loads(status.read_text()), "exit_code": 2,
+                                              "reason": "input unreadable", "cpu_s": None}))
+        experiment_report.write_report(batch)
+        text = (self.places.output / "figures" / "pareto.svg").read_text()
+        self.assertIn("Hall, OS1-16", text)
+        self.assertNotIn("Spin", text)
+
+    def test_a_scenario_without_times_has_no_panel_of_times(self):
+        findings = self.findings(GRID)
+        for row in findings.rows:
+            if row["group"] == "spin_avia":
+                row["cpu_ms_per_data_second"] = None
+        self.assertEqual([axes.get_title() for axes in draw_pareto(findings).axes], ["Hall, OS1-16"])
 
     def test_of_an_unfinished_experiment_the_finished_runs_are_shown(self):
         batch = self.batch(GRID)
