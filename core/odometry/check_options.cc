@@ -66,17 +66,24 @@ class RangeCheck {
 struct Value {
   const char* key;
   double value;
+  double times = 1.0;  // what is compared is this multiple
+
+  double Compared() const { return times * value; }
 };
 
-std::string Text(const Value& v) { return std::string(v.key) + " (" + NumberText(v.value) + ")"; }
+/// A multiple is not multiplied out: 3 x 0.1 would be 0.30000000000000004.
+std::string Text(const Value& v) {
+  const std::string times = v.times == 1.0 ? "" : NumberText(v.times) + " x ";
+  return times + v.key + " (" + times + NumberText(v.value) + ")";
+}
 
 void RequireLess(const Value& a, const Value& b, const char* why) {
-  if (a.value < b.value) return;
+  if (a.Compared() < b.Compared()) return;
   throw std::invalid_argument(Text(a) + " must be less than " + Text(b) + ": " + why);
 }
 
 void RequireAtMost(const Value& a, const Value& b, const char* why) {
-  if (a.value <= b.value) return;
+  if (a.Compared() <= b.Compared()) return;
   throw std::invalid_argument(Text(a) + " must not exceed " + Text(b) + ": " + why);
 }
 
@@ -106,7 +113,7 @@ void CheckMap(const MapOptions& map) {
 void CheckRegistration(const RegistrationOptions& registration) {
   if (registration.kernel == KernelKind::kNone || registration.kernel_in_spreads <= 0.0) return;
   RequireAtMost({"registration.sigma_m", registration.sigma_m},
-                {"3 x expert.registration.kernel_m", kWidestKernel * registration.kernel_m},
+                {"expert.registration.kernel_m", registration.kernel_m, kWidestKernel},
                 "the fitted kernel is between the two");
 }
 

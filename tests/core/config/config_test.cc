@@ -221,6 +221,9 @@ TEST(Config, ContradictionsNameBothKeysAndTheirValues) {
         "expert.map.plane.neighbors=3", "registration.sigma_m=0.31"}) {
     EXPECT_NE(problem(settings), "") << settings;
   }
+  // As the user wrote it: multiplied out it would have rounding errors.
+  EXPECT_THAT(problem("registration.sigma_m=0.31,expert.registration.kernel_m=0.1"),
+              HasSubstr("must not exceed 3.0 x expert.registration.kernel_m (3.0 x 0.1): "));
   // Only a kernel that is fitted lies between the two.
   EXPECT_EQ(problem("registration.sigma_m=0.31,expert.registration.kernel_in_spreads=0"), "");
 }
