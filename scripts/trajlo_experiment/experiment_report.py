@@ -3,7 +3,7 @@
 import math
 import re
 
-from trajlo_batch import command_line, results
+from trajlo_batch import command_line, results, tables
 from trajlo_batch.batch_report import about_outdated, summary
 from trajlo_experiment import analysis, conclusion, figures, figures_tradeoff, table
 from trajlo_experiment.factors import level_text
@@ -27,11 +27,21 @@ def levels_of(findings, row):
             for factor in findings.study.factors]
 
 
-def group_cell(findings, errors):
+def signs_of(findings, point, group):
+    """Those that tables of batches have at values in doubt."""
+    rows = [row for row in findings.rows if (row["point"], row["group"]) == (point, group)]
+    unsure = tables.FROM_TRUTH.fullmatch(findings.metric) and any(
+        row["evaluation_warnings"] for row in rows)
+    return (f" {tables.DOUBT}" if any(map(results.in_doubt, rows)) else "") + (
+        f" {tables.UNSURE}" if unsure else "")
+
+
+def group_cell(findings, ranked, group):
     """Median over the seeds, with what is behind it."""
-    errors = [findings.multiplier * error for error in errors]
+    errors = [findings.multiplier * error for error in ranked.errors[group]]
     failed = sum(map(math.isinf, errors))
     return {"text": findings.text(analysis.median(errors))
+            + signs_of(findings, ranked.point, group)
             + (f" ({failed} ×)" if failed and failed < len(errors) else ""),
             "note": ", ".join(map(findings.text, errors))}
 
@@ -49,7 +59,7 @@ def best_settings(findings):
             "score": text_of(ranked.score, 3),
             "interval": f"{text_of(ranked.low, 2)} to {text_of(ranked.high, 2)}",
             "best_share": text_of(100 * ranked.best_share, 0), "failed": ranked.failed,
-            "groups": [group_cell(findings, ranked.errors[group]) for group in findings.groups]})
+            "groups": [group_cell(findings, ranked, group) for group in findings.groups]})
     return lines
 
 
@@ -60,7 +70,7 @@ def front_lines(findings):
         names, costs, errors, front = figures_tradeoff.tradeoff(findings, group)
         for number, index in enumerate(front, 1):
             yield {"group": group, "number": number, "cost": f"{costs[index]:.0f}",
-                   "error": findings.text(errors[index]),
+                   "error": findings.text(errors[index]) + signs_of(findings, names[index], group),
                    "levels": levels_of(findings, row_of[names[index]])}
 
 
@@ -74,16 +84,37 @@ def failure_lines(rows):
     return sorted(counts.items(), key=lambda item: -len(item[1]))
 
 
-def reason_of(row):
-    if row["outdated"]:
-        return f"outdated: {row['outdated']} changed since"
-    return row["evaluation_warnings"] if row["result"] == results.OK else row["reason"]
+def remarks_of(row):
+    """Why a run failed or is in doubt."""
+    said = [f"outdated: {row['outdated']} changed since"] if row["outdated"] else []
+    if row["result"] != results.OK or results.in_doubt(row):
+        said.append(row["reason"])
+    return "; ".join(text for text in (*said, row["evaluation_warnings"]) if text)
+
+
+def run_values(row):
+    """What the table of runs shows of one, with the signs at its result."""
+    signs = (f" {tables.DOUBT}" if results.in_doubt(row) else "") + (
+        f" {tables.UNSURE}" if row["evaluation_warnings"] else "")
+    return [row.get(name) if name != "result" else row["result"] + signs for name in RUN_COLUMNS]
 
 
 def run_lines(findings, rows):
     return [{"levels": levels_of(findings, row), "marks": row["marks"],
-             "reason": reason_of(row),
-             "values": [row.get(name) for name in RUN_COLUMNS]} for row in rows]
+             "remarks": remarks_of(row), "failed": row["result"] != results.OK or row["outdated"],
+             "values": run_values(row)} for row in rows]
+
+
+SIGNS = {tables.DOUBT: "a run ended with exit code 3: a part of its input was damaged, left out or in "
+         "doubt", tables.UNSURE: "trajlo_evaluate warns about the comparison with the truth"}
+
+
+def sign_note(rows):
+    """What the signs at values mean, as far as there are any."""
+    shown = {tables.DOUBT: any(map(results.in_doubt, rows)),
+             tables.UNSURE: any(row["evaluation_warnings"] for row in rows)}
+    said = "; ".join(f"{sign}: {text}" for sign, text in SIGNS.items() if shown[sign])
+    return f"{said}. The table of runs says which." if said else ""
 
 
 DESIGNS = {"grid": "all combinations of the values", "one_at_a_time": "one factor at a time about "
@@ -116,8 +147,8 @@ def write_report(plan):
         failures=failure_lines(rows), conclusions=conclusion.sentences(findings),
         warnings=[text for text in (*conclusion.warnings(plan), about_outdated(rows, "--report"))
                   if text],
-        caution=conclusion.caution(findings),
-        figures=drawn,
+        caution=conclusion.caution(findings), sign_note=sign_note(rows),
+        figures=drawn, level_text=level_text,
         runs=run_lines(findings, rows), run_columns=RUN_COLUMNS, shown=shown, programs=programs,
         missing=plan.missing, text=study.file.read_text(),
         call=command_line.call_of("experiment", "experiments", study.file, plan.places))

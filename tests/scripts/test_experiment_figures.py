@@ -235,16 +235,32 @@ class FiguresTest(FindingsTest):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("Outdated: 42 of 42 runs", done.stdout)
 
-    def test_doubts_about_the_comparison_are_on_the_page(self):
+    def test_what_is_in_doubt_has_its_sign_and_its_reason_and_is_no_failure(self):
         batch = self.batch(GRID)
         self.finish(batch, bowl)
-        path = self.places.output / batch.runs[0].folder / "evaluation" / "evaluation.json"
+        unsure, doubtful = (self.places.output / run.folder for run in batch.runs[:4:3])
+        path = unsure / "evaluation" / "evaluation.json"
         path.write_text(json.dumps({**json.loads(path.read_text()),
                                     "warnings": ["/a/trajectory.tum: another unit"]}))
+        status = doubtful / "status.json"
+        status.write_text(json.dumps({**json.loads(status.read_text()), "exit_code": 3,
+                                      "reason": "input damaged"}))
         experiment_report.write_report(batch)
         page = (self.places.output / "report.html").read_text()
-        self.assertIn("of which 1 with warnings about the comparison with the truth", page)
-        self.assertIn("trajectory.tum: another unit", page)
+        self.assertIn("of which 1 with warnings about the input, 1 with warnings about the "
+                      "comparison with the truth", page)
+        self.assertIn("!: a run ended with exit code 3", page)
+        self.assertRegex(page, ">4.0 [?]</td><td[^>]*>8.0 !</td>")  # of the best settings
+        for sign, reason in (("?", "trajectory.tum: another unit"), ("!", "input damaged")):
+            row, = re.findall(rf"<tr[^>]*>(?=<td>\d+</td><td>\S+-seed\d</td><td>ok [{sign}]).*", page)
+            self.assertIn(f"{reason}</td></tr>", row)
+            self.assertTrue(row.startswith("<tr><td>"), "a run that ended well is no failure")
+
+    def test_truth_values_are_written_as_options_are(self):
+        _, text = self.report(GRID.replace("[none, huber]", "[true, false]").replace(
+            "a.kernel: huber", "a.kernel: true"))
+        self.assertRegex(text, '<td class="text long">true, false<')
+        self.assertNotIn("True", text)
 
     def test_an_experiment_that_has_not_begun_has_a_page(self):
         batch = self.batch(GRID)
