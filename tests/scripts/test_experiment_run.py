@@ -100,7 +100,7 @@ class ExperimentRunTest(FolderTest):
 
     def test_runs_that_fail_are_results_and_recordings_can_be_dropped(self):
         text = EXPERIMENT.replace("  window.segments: [2, 4]", "  way:\n    settings:\n"
-                                  "      good: {}\n      impossible: {input.stamps_file: no.txt}")
+                                  "      good: {}\n      impossible: {input.start_s: 100}")
         done = self.experiment("--drop-recordings", text=text)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         # The body hardly moves in 2 s, so there may be warnings about the comparison.
