@@ -10,7 +10,7 @@ import yaml
 
 from trajlo_batch import checks
 from trajlo_batch.places import digest, read_json_if, write_json
-from trajlo_batch.results import flatten
+from trajlo_batch.yaml_tree import flatten
 from trajlo_batch.suite import Configuration
 from trajlo_batch.yaml_lines import SuiteError
 from trajlo_experiment import designs
