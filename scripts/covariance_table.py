@@ -21,7 +21,7 @@ import numpy as np
 import check_covariance
 from trajlo_batch.command_line import add_build_argument
 from trajlo_batch.places import programs_in, read_json_if
-from trajlo_batch.results import dig
+from trajlo_batch.results import PARTIAL, USABLE, dig
 from trajlo_report import command_line, files
 
 SCENARIOS = ("hall_os1_16", "courtyard_os1_16", "office_os0_64", "facade_os1_16", "corridor_vlp16",
@@ -32,12 +32,17 @@ KINDS = {"at rest": ("motion.kind=still", 1, 8.0),
 BEGIN_S = 1.5  # From when on poses are judged.
 
 
+def exit_code(result):
+    return dig(read_json_if(result / "run.json"), "exit", "code")
+
+
 def make_run(programs, folder, scenario, kind, seed):
-    """The recording and its result, unless they are there."""
+    """The recording and its result, unless they are there. Of one that is in doubt, where the points
+    leave a direction open, it is just as well to know how right the covariances are."""
     parameters, _, duration_s = KINDS[kind]
     recording, result = folder / "recording", folder / "result"
     # run.json is there from the start of a run on, and after one that failed.
-    if dig(read_json_if(result / "run.json"), "exit", "code") == 0:
+    if exit_code(result) in USABLE:
         return
     subprocess.run([programs / "trajlo_simulate", f"--scenario={scenario}", f"--seed={seed}",
                     f"--duration_s={duration_s}", f"--set={parameters}", f"--output={recording}",
@@ -45,7 +50,7 @@ def make_run(programs, folder, scenario, kind, seed):
     run = subprocess.run([programs / "trajlo_run", f"--input={recording}",
                           f"--config={recording / 'rig.yaml'}", f"--output={result}",
                           "--overwrite", "--covariance", "--quiet"])
-    if run.returncode:
+    if run.returncode not in USABLE:
         sys.exit(f"covariance_table.py: trajlo_run ended with {run.returncode} on '{recording}'")
 
 
@@ -71,6 +76,8 @@ def print_table(rows, aparts):
         cells = "".join(f" **{pose:.2f}** | {t:.2f} | {r:.2f} | {rms:.1f} |"
                         for pose, t, r, rms in values)
         print(f"| `{scenario}` | {kind} |{cells}")
+    if any(kind.endswith("!") for _, kind, _ in rows):
+        print("\n! A run ended with exit code 3: most of its poses are flagged.")
 
 
 def make_parser():
@@ -94,7 +101,8 @@ def tabulate(arguments):
                 files.make_folder(folder)
                 make_run(programs_in(arguments.build), folder, scenario, kind, seed)
                 folders.append(folder)
-            rows.append((scenario, kind,
+            is_in_doubt = any(exit_code(folder / "result") == PARTIAL for folder in folders)
+            rows.append((scenario, kind + (" !" if is_in_doubt else ""),
                          [np.mean([ratios_of(folder, apart) for folder in folders], axis=0)
                           for apart in arguments.apart]))
     print_table(rows, arguments.apart)
