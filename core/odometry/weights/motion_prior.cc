@@ -137,7 +137,6 @@ void MotionPrior::Learn(const Innovation& innovation, double duration_s) {
     const std::optional<double> scatter = MeanSquare(z, innovation, 3 * part);
     if (!scatter) continue;
     const double surprise = (1.0 - decay * decay) * *MeanSquare(sum_, innovation, 3 * part);
-    surprise_[part] += share * (surprise - surprise_[part]);
     scatter_[part] += share * (*scatter - scatter_[part]);
     if (!options_.self_tuning) continue;
     double noise = 1.0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/odometry/weights/innovation.h"
@@ -100,16 +99,13 @@ class MotionPrior {
   /// k: by how much the variance of the points is larger than assumed.
   double noise_factor() const { return std::exp(log_noise_factor_); }
 
-  /// The factor between the squared errors of the poses and the covariances of their windows,
-  /// averaged over T_l; 1 before there is evidence.
+  /// The factor between the squared errors of the poses and the covariances of their windows: the
+  /// mean of z² over T_l, of translation and rotation together; 1 before there is evidence.
   ///
   /// The noise of the points is set on the safe side, the motion is calmer than q at rest and at
   /// times wilder, and errors of planes move the map and the poses alike: so covariances are off by
-  /// a factor, and corrections are off by the same one. It has two estimates, each too large for a
-  /// reason of its own. The mean of z² counts noise that later segments average out before the pose
-  /// leaves the window. The mean of u sums up over T_s, in which such noise cancels, but counts the
-  /// lag of the prediction, which the points have taken away. The smaller one is taken.
-  double covariance_scale() const { return std::min(surprise_.mean(), scatter_.mean()); }
+  /// a factor, and corrections are off by the same one.
+  double covariance_scale() const { return scatter_.mean(); }
 
   /// The velocity to expect of a segment of `duration_s` that follows those of a window,
   /// [rho; theta] per second, body frame.
@@ -141,8 +137,7 @@ class MotionPrior {
   Vector6d density_;
   VelocityPersistence persistence_;
   Vector6d sum_ = Vector6d::Zero();  ///< s
-  /// u and z² of translation and of rotation, averaged over T_l.
-  Eigen::Vector2d surprise_ = Eigen::Vector2d::Ones();
+  /// z² of translation and of rotation, averaged over T_l.
   Eigen::Vector2d scatter_ = Eigen::Vector2d::Ones();
   double lasting_scatter_ = 1.0;  ///< min(z², 4) of translation, averaged over two seconds.
   double log_noise_factor_ = 0.0;
