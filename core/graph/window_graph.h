@@ -13,8 +13,7 @@ namespace trajlo {
 
 /// The factor of one point, at the poses of its window:
 ///
-///   s = weight (distance / sigma)²,   cost ½ rho(s),   H += information JᵀJ,   J = d distance / d
-///   xi.
+///   s = weight (distance / sigma)²,   cost ½ rho(s),   H += information JᵀJ,   J = ∂distance/∂xi.
 struct PointFactor {
   RegistrationPoint point;
   int segment = 0;             ///< Between poses `segment` and `segment` + 1.

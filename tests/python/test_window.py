@@ -93,6 +93,16 @@ class InspectedTest(unittest.TestCase):
         self.assertTrue((half.points["information"][::2] == 0.0).all())
         self.assertGreater(apart(half, self.window.solve()), 1e-7)
 
+    def test_iterations_say_whether_there_were_enough(self):
+        self.assertEqual(self.window.iterations, 0)
+        self.assertEqual(self.window.solve(kernel="tukey", max_iterations=1).iterations, 1)
+        self.assertLess(self.window.solve(kernel="tukey").iterations, 100)
+
+    def test_weights_without_a_finite_solution_are_an_error(self):
+        for solver in ("ceres", "gauss_newton"):
+            with self.assertRaisesRegex(trajlo.EstimatorError, "has no finite solution"):
+                self.window.solve(sigma_m=1e-200, solver=solver)
+
     def test_wrong_weights_are_refused(self):
         for weights in ({"sigma_m": 0.0}, {"prior_factor": -1.0}, {"point_weights": [1.0, 2.0]},
                         {"kernel_m": float("nan")}, {"max_iterations": 0}, {"point_weights": []}):

@@ -163,7 +163,7 @@ point_weights      (N,), in the order of `points`; 0 leaves a point out
 solver             "ceres" or "gauss_newton"
 max_iterations     it ends before that when the steps are below 1e-9 m and 1e-10 rad
 
-Raises InputError and ConfigError.)";
+Raises InputError, ConfigError, and EstimatorError where there is no finite solution.)";
 
 }  // namespace
 
@@ -198,6 +198,9 @@ residual = sqrt_information d + offset, d = pose ⊖ linearization_points; and i
           "costs", [](const InspectedWindow& w) { return w.summary().costs; },
           "After solve(): the whole cost at the start and after each step. Gauss-Newton does not\n"
           "compute that of its last one.")
+      .def_property_readonly(
+          "iterations", [](const InspectedWindow& w) { return w.summary().iterations; },
+          "After solve(): the steps that were taken; max_iterations of them may be too few.")
       .def_property_readonly(
           "sigma_m", [](const InspectedWindow& w) { return w.window().noise.sigma_m; },
           "Of a point, before noise_factor and the bend of its segment: see solve().")

@@ -31,7 +31,8 @@ class InspectedWindow {
   /// How it was solved once more; empty if it was not.
   const SolveSummary& summary() const { return summary_; }
 
-  /// From its poses, with other weights, by a solver of this kind.
+  /// From its poses, with other weights, by a solver of this kind. Throws std::invalid_argument
+  /// (see Reweigh) and EstimatorError where the equations have no finite solution.
   InspectedWindow Solve(const Reweighing& reweighing, SolverKind kind, int max_iterations) const;
 
  private:
