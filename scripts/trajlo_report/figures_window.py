@@ -40,11 +40,12 @@ def draw_residuals(graph, width_in):
     bins = np.linspace(-reach, reach, 61)
     left.hist(residuals, bins, color=theme.METHODS[0], label="points")
     inside = np.abs(residuals) <= reach
-    spread = 1.4826 * np.median(np.abs(residuals)) if len(residuals) else 1.0
-    middle = 0.5 * (bins[1:] + bins[:-1])
-    left.plot(middle, inside.sum() * (bins[1] - bins[0]) / (spread * np.sqrt(2 * np.pi))
-              * np.exp(-0.5 * (middle / spread)**2), color=theme.END,
-              label=f"normal, {spread:.2f} sigma wide")
+    spread = 1.4826 * np.median(np.abs(residuals)) if len(residuals) else 0.0
+    if spread > 0.0:  # Points that do not hold their segment have no weight.
+        middle = 0.5 * (bins[1:] + bins[:-1])
+        left.plot(middle, inside.sum() * (bins[1] - bins[0]) / (spread * np.sqrt(2 * np.pi))
+                  * np.exp(-0.5 * (middle / spread)**2), color=theme.END,
+                  label=f"normal, {spread:.2f} sigma wide")
     left.set(xlabel="residual [sigma]", ylabel="points")
     left.legend(loc="upper left")
     left.margins(y=0.25)

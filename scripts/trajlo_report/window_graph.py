@@ -42,7 +42,8 @@ class WindowGraph:
 
     def step_to_minimum(self):
         """How far Gauss-Newton would move the poses from here: largest m and rad."""
-        step = np.linalg.solve(self.total(), -self.gradient).reshape(-1, 6)
+        # Where nothing holds a direction, there is no step along it.
+        step = np.linalg.lstsq(self.total(), -self.gradient, rcond=None)[0].reshape(-1, 6)
         return np.linalg.norm(step[:, :3], axis=1).max(), np.linalg.norm(step[:, 3:], axis=1).max()
 
     def segments(self):

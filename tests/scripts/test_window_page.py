@@ -109,6 +109,17 @@ class WindowPageTest(FolderTest):
         self.assertLess(step_m, 5e-3)
         self.assertLess(step_rad, 1e-3)
 
+    def test_a_window_whose_points_have_no_weight_is_drawn(self):
+        path = self.result / "windows/000012.ply"
+        columns = files.read_ply_columns(path)
+        rows = np.array(list(zip(*columns.values())))
+        for name in ("weight", "information"):
+            rows[:, list(columns).index(name)] = 0.0
+        head = path.read_bytes().partition(b"end_header\n")[0] + b"end_header\n"
+        path.write_bytes(head + rows.astype("<f8").tobytes())
+        done = self.draw("12")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_doubles_and_floats_of_a_ply_are_read(self):
         path = self.folder / "mixed.ply"
         rows = np.array([(1.5, 2.0), (-3.25, 1e-300)], dtype=[("a", "<f4"), ("b", "<f8")])
