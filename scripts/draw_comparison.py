@@ -83,7 +83,7 @@ def draw(arguments):
         conclusions=[
             *words.of_end(document), *words.of_windows(lockstep, times),
             *words.by_whole_runs_only(document["variants"]), *words.of_runs(free)],
-        undrawn=undrawn, few_poses=words.few_poses, warnings=words.warnings(document),
+        undrawn=undrawn, few_poses=words.few_poses, warnings=document.get("warnings", []),
         compared=words.compared,
         leaves_s={item["name"]: words.since_begin(folder, item) for item in free},
         length=words.small_length, config=(folder / "config.yaml").read_text()))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/compare/compare_warnings.h"
 #include "core/io/format_text.h"
 #include "core/io/stamp_text.h"
 #include "core/report/csv_row.h"
@@ -157,11 +158,15 @@ std::string CompareJson(const CompareRequest& request, const CompareReport& repo
     if (const FreeResult* result = FindFree(report, variant.name)) json["free"] = FreeJson(*result);
     variants.push_back(std::move(json));
   }
+  std::vector<std::string> warnings = report.warnings;
+  for (const auto& of_runs : {WarningsOfRuns(report), FailuresOfRuns(report)}) {
+    warnings.insert(warnings.end(), of_runs.begin(), of_runs.end());
+  }
   const Versions v = GetVersions();
   const Json json = {
       {"command_line", request.command_line},
       {"is_whole", report.is_whole},
-      {"warnings", report.warnings},
+      {"warnings", warnings},
       {"input", request.inputs},
       {"truth", request.truth.empty() ? Json(nullptr) : Json(request.truth)},
       {"lockstep_options",

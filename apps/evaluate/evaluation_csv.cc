@@ -32,9 +32,8 @@ std::string EvaluationCsv(const EvaluateRequest& request, const EvaluationReport
   const std::vector<MetricColumn> columns = MetricColumns(request.options.relative);
   std::string csv =
       "name,file,diverged,divergence_reason,association,alignment,scale,time_offset_s,pairs,"
-      "completeness,paired_share,covered_share,path_length_m,duration_s,incomplete,rotation_sigma_"
-      "deg,"
-      "rotation_determined";
+      "completeness,paired_share,covered_share,path_length_m,duration_s,incomplete,"
+      "rotation_sigma_deg,rotation_determined";
   for (const MetricColumn& column : columns) csv += "," + column.key;
   csv += "\n";
   for (const EstimateReport& estimate : report.estimates) {

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <system_error>
 
@@ -52,16 +53,14 @@ void AddFigures(const fs::path& folder, const Names& names, std::vector<fs::path
   }
 }
 
-/// Files with the names that trajlo_run --inspect and draw_window.py give: "000431.json".
+/// Files with the names that trajlo_run --inspect and draw_window.py give: "000431.json",
+/// "000431_points.svg".
 void AddGraphs(const fs::path& folder, std::vector<fs::path>* files) {
+  static const std::regex name(
+      "[0-9]{6,}(_(points|residuals|matrix))?\\.(json|ply|html|svg|pdf|png)");
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string stem = entry.path().stem().string();
-    const bool is_number = stem.size() >= 6 && stem.find_first_not_of("0123456789") == stem.npos;
-    const std::string kind = entry.path().extension().string();
-    if (is_number && (kind == ".json" || kind == ".ply" || kind == ".html")) {
-      files->push_back(entry.path());
-    }
+    if (std::regex_match(entry.path().filename().string(), name)) files->push_back(entry.path());
   }
 }
 

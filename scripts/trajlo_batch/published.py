@@ -33,8 +33,8 @@ def is_value(text):
 
 # The batch's own tables.
 OWN_TABLES = ("table", "speed")
-# What a column of results.csv is in, by the end of its name.
-UNITS = {"_m": ("m",), "_deg": ("°", "deg"), "_percent": ("%",), "_per_m": ("°/m", "deg/m"),
+# What a column of results.csv is in, by the end of its name; the longer ends first.
+UNITS = {"_deg_per_m": ("°/m", "deg/m"), "_m": ("m",), "_deg": ("°", "deg"), "_percent": ("%",),
          "_s": ("s",)}
 
 

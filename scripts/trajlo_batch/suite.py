@@ -121,7 +121,7 @@ def flags(mapping, key):
 
 
 # Folders of the batch itself.
-RESERVED = ("recordings", "truth", "replaced", "slurm", "figures")
+RESERVED = ("recordings", "truth", "replaced", "slurm")
 
 
 def valid_name(mapping, name):

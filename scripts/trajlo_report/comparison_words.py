@@ -148,18 +148,6 @@ def of_runs(free):
     return said
 
 
-def warnings(document):
-    """Those of the comparison, and what each run's comparison with the truth has: said once."""
-    runs = [item for item in document["variants"] if "free" in item]
-    names_of = {}
-    for item in runs:
-        for text in item["free"].get("truth_warnings") or []:
-            names_of.setdefault(text, []).append(item["name"])
-    return [*document.get("warnings", []),
-            *(f"{listed(names) if len(names) < len(runs) or len(runs) == 1 else 'all runs'}: {text}"
-              for text, names in names_of.items())]
-
-
 def compared(item):
     """How much of a run stands behind its error."""
     free = item["free"]

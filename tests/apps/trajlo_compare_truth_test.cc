@@ -80,6 +80,7 @@ TEST_F(CompareWithTruthTest, DoubtsOfTheComparisonAreToldOnceForAllRuns) {
   EXPECT_THAT(outcome.out, HasSubstr(" ?\n"));
   const auto free = Json()["variants"][1]["free"];
   EXPECT_THAT(free["truth_warnings"].dump(), HasSubstr("times as large"));
+  EXPECT_THAT(Json()["warnings"].dump(), HasSubstr("\"all runs: the positions"));
 }
 
 TEST_F(CompareWithTruthTest, AFlagIsThatOfTheProgramThatHasIt) {

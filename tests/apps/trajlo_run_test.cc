@@ -98,10 +98,12 @@ TEST_F(TrajloRunTest, InspectWritesTheFactorGraphsOfWindowsAndAnEarlierOneGoes) 
     EXPECT_THAT(ReadFile(Result("windows/" + name + ".ply")), HasSubstr("double kernel_weight"));
   }
   WriteFile(Result("windows/000001.txt"), "somebody's");
+  WriteFile(Result("windows/000007_points.svg"), "drawn");
   const Outcome beyond = Run({"--inspect=100000", "--overwrite"});
   EXPECT_EQ(beyond.exit_code, 0);
   EXPECT_THAT(beyond.err, HasSubstr("there is no window 100000"));
   EXPECT_FALSE(std::filesystem::exists(Result("windows/000007.json")));
+  EXPECT_FALSE(std::filesystem::exists(Result("windows/000007_points.svg")));
   EXPECT_TRUE(std::filesystem::exists(Result("windows/000001.txt")));
 }
 

@@ -155,6 +155,7 @@ class PublishedTest(FolderTest):
     def test_numbers_of_another_kind_or_unit_are_not_compared(self):
         self.assertEqual(self.compare("ate_rmse_m", "m")[0][0], "paper")
         self.compare("kitti_translation_percent", "%", ours="kitti_translation_percent")
+        self.compare("kitti_rotation_deg_per_m", "°/m", ours="kitti_rotation_deg_per_m")
         with self.assertRaisesRegex(SuiteError, "give the suite the metric kitti_translation"):
             self.compare("kitti_translation_percent", "%")
         with self.assertRaisesRegex(SuiteError, "are in cm, and ours of ate_rmse_m are in m"):
