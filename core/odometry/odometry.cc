@@ -9,6 +9,7 @@
 
 #include "core/odometry/check_options.h"
 #include "core/odometry/first_poses.h"
+#include "core/odometry/first_speed.h"
 #include "core/odometry/health/belief.h"
 #include "core/odometry/segments/join_segments.h"
 #include "core/odometry/start/initial_motion.h"
@@ -126,6 +127,11 @@ void Odometry::Begin(Beginning beginning) {
 /// seen once says nothing of the motion, and is no place that could be found again. The first
 /// interval begins behind the gap.
 void Odometry::TakeFirst(SegmentCloud cloud) {
+  if (cloud.is_gap && beginning_->motion) {
+    Start();
+    Take(std::move(cloud));
+    return;
+  }
   if (cloud.is_gap) {
     beginning_->segments.clear();
     return;
@@ -135,32 +141,58 @@ void Odometry::TakeFirst(SegmentCloud cloud) {
 }
 
 /// The motion during the first interval, then a map, and a window that begins where that ends.
-/// Where the recording ends within the interval, the motion must be shown, and is in doubt all the
-/// same: no window has confirmed it.
 void Odometry::Start() {
   Beginning beginning = *std::exchange(beginning_, std::nullopt);
-  const bool is_cut_short = !beginning.IsWhole(options_.initialization);
-  std::vector<SegmentCloud>& segments = beginning.segments;
-  if (segments.empty()) return;
-  rig_.Begin(&segments);
-  const SegmentCloud interval = JoinSegments(segments);
-  FirstMotion motion = MotionOfFirstInterval(interval, options_.initialization, options_.map,
-                                             options_.registration, &threads_);
-  if (is_cut_short) {
-    if (!motion.is_shown) motion.velocity.setZero();
-    beginning.flags |= kFlagNoPoints;
+  if (beginning.segments.empty()) return;
+  if (beginning.motion) {
+    beginning.motion = FindFirstSpeed(beginning.segments, beginning.in_interval, *beginning.motion,
+                                      options_, make_solver_, &threads_);
+  } else {
+    FindFirstMotion(&beginning);
+    if (beginning.motion->open_direction && !is_finishing_) {
+      beginning_ = std::move(beginning);
+      return;
+    }
   }
+  BeginMap(std::move(beginning));
+}
+
+/// Where the recording ends within the interval, the motion must be shown, and is in doubt all the
+/// same: no window has confirmed it.
+void Odometry::FindFirstMotion(Beginning* beginning) {
+  beginning->is_cut_short = !beginning->IsWhole(options_.initialization);
+  rig_.Begin(&beginning->segments);
+  FirstMotion motion =
+      MotionOfFirstInterval(JoinSegments(beginning->segments), options_.initialization,
+                            options_.map, options_.registration, &threads_);
+  if (beginning->is_cut_short) {
+    if (!motion.is_shown) motion.velocity.setZero();
+    motion.open_direction.reset();
+    beginning->flags |= kFlagNoPoints;
+  }
+  // Scans of one time are too few for a search.
+  if (beginning->segments.front().is_instant) motion.open_direction.reset();
+  beginning->motion = motion;
+  beginning->in_interval = beginning->segments.size();
+}
+
+void Odometry::BeginMap(Beginning beginning) {
+  std::vector<SegmentCloud>& segments = beginning.segments;
+  const FirstMotion& motion = *beginning.motion;
   const SE3& T_begin = beginning.T_world_begin;
-  std::size_t in_map = segments.size();
+  std::size_t in_map = beginning.in_interval;
+  const std::vector<SegmentCloud> first(segments.begin(),
+                                        segments.begin() + static_cast<std::ptrdiff_t>(in_map));
   if (segments.front().is_instant) {
     in_map = 1;
     tracker_.BeginMap({segments.front()}, {T_begin, T_begin}, motion.velocity, beginning.flags);
-  } else if (motion.is_at_rest || is_cut_short || segments.size() < 2) {
+  } else if (motion.is_at_rest || beginning.is_cut_short || first.size() < 2) {
+    const SegmentCloud interval = JoinSegments(first);
     const SE3 T_end = Plus(T_begin, motion.velocity * interval.Duration_s());
     tracker_.BeginMap({interval}, {T_begin, T_end}, motion.velocity, beginning.flags);
   } else {
-    if (!motion.is_steady) in_map = FirstSweep(segments);
-    BeginInMotion(segments, in_map, motion.velocity, T_begin, beginning.flags);
+    if (!motion.is_steady) in_map = FirstSweep(first);
+    BeginInMotion(first, in_map, motion.velocity, T_begin, beginning.flags);
   }
   for (std::size_t k = in_map; k < segments.size(); ++k) Take(std::move(segments[k]));
 }

@@ -99,6 +99,8 @@ class Odometry {
   void Begin(Beginning beginning);
   void TakeFirst(SegmentCloud cloud);
   void Start();
+  void FindFirstMotion(Beginning* beginning);
+  void BeginMap(Beginning beginning);
   void BeginInMotion(const std::vector<SegmentCloud>& segments, std::size_t in_map,
                      const Vector6d& velocity, const SE3& T_begin, unsigned flags);
   // The body is followed.

@@ -88,7 +88,7 @@ std::optional<WindowStatistics> Tracker::Step(SegmentCloud* cloud, std::optional
   const int to_keep = SegmentsToKeep(window_.segments.back(), options_.window.segments);
   while (window_.size() > to_keep) Leave(&statistics);
   NoteLoss(&statistics);
-  RelocalizeWindow(statistics.agreement);
+  if (looks_around_) RelocalizeWindow(statistics.agreement);
   return statistics;
 }
 

@@ -28,6 +28,10 @@ class Tracker {
   Tracker(const OdometryOptions& options, const WindowSolverFactory& make_solver,
           ThreadPool* threads, RigCalibration* rig);
 
+  /// A body in doubt is not looked for elsewhere in the map: of many trackers that try something,
+  /// the wrong ones may as well stay lost.
+  void StayLost() { looks_around_ = false; }
+
   /// A map of the first segments alone, at `poses` in the world (one more), and a window that
   /// begins where they end, at `velocity` ([rho; theta] per second, body frame). The first and the
   /// last of the poses are of the trajectory, and have these flags: what may be wrong there shows
@@ -102,6 +106,7 @@ class Tracker {
   SupportWatch support_;
   DoubtWatch doubt_;
   WindowSearch window_search_;
+  bool looks_around_ = true;
   MeanAttitude attitude_;
   FinalPoses poses_;
   LeavingPoses leaving_;

@@ -200,6 +200,7 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
   const bool is_at_rest = motion.tau.head<3>().norm() < kAtRest_m;
   const bool is_searched =
       direction && !(is_at_rest && interval.IsShownAlong(*direction, motion.tau));
+  motion.open_direction = direction;
   if (is_searched) motion.tau = SearchAlong(*direction, interval, motion.tau, threads);
   const auto evidence_for = [&](const Vector6d& tau) {
     const MotionHypothesis hypothesis = interval.At(tau);
@@ -228,6 +229,7 @@ FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const Initializatio
   first.is_at_rest = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
   first.is_steady = first.is_at_rest || taken.agreeing > kSteady * taken.with_plane;
   first.is_shown = taken.agreeing > kShown * motion.points;
+  first.open_direction = motion.open_direction;
   if (is_believed) first.velocity = motion.tau / duration_s;
   return first;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
+
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_cloud.h"
@@ -24,6 +27,9 @@ struct InitialMotion {
   int points = 0;          ///< Of the second half.
   MotionEvidence found;    ///< For tau.
   MotionEvidence at_rest;  ///< For a sensor that stood still.
+  /// The direction of translation in the frame of the first pose that hardly any point holds, if
+  /// there is one.
+  std::optional<Eigen::Vector3d> open_direction;
 };
 
 /// Finds how the sensor moved during the first interval from nothing but the interval itself: the
@@ -60,6 +66,7 @@ struct FirstMotion {
   /// Whether most points of the second half agree with it. Of a single sweep hardly any do: its
   /// halves see different things.
   bool is_shown = true;
+  std::optional<Eigen::Vector3d> open_direction;  ///< See InitialMotion.
 };
 
 /// The motion over the first interval: the estimated one if it is believed, else rest.

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/odometry/start/coarse_to_fine.h"
+#include "core/odometry/start/facing.h"
 #include "core/odometry/window/association.h"
 #include "core/odometry/window/points_to_world.h"
 #include "factors/plane_distances.h"
@@ -14,8 +15,6 @@
 namespace trajlo {
 namespace {
 
-/// Planes whose normals have at least this cosine with a direction face it.
-constexpr double kFacing = 0.5;
 /// This many (up to twice as many) of the points on planes that do not face a direction hold all
 /// but the way along it.
 constexpr std::size_t kHolding = 2000;
@@ -25,10 +24,6 @@ constexpr int kMoments = 100;
 constexpr int kMostVotes = 8;
 
 int MomentOf(const RegistrationPoint& point) { return static_cast<int>(point.alpha * kMoments); }
-
-bool IsFacing(const RegistrationPoint& point, const Eigen::Vector3d& direction) {
-  return std::abs(point.normal_world.dot(direction)) >= kFacing;
-}
 
 }  // namespace
 
@@ -95,16 +90,7 @@ int MotionHypothesis::FacingAlong(const Eigen::Vector3d& direction) const {
 
 std::vector<SegmentPoint> MotionHypothesis::TellingAlong(
     const Eigen::Vector3d& direction, const std::vector<SegmentPoint>& second_half) const {
-  std::vector<SegmentPoint> telling, others;
-  auto with_plane = points_.begin();
-  for (const SegmentPoint& point : second_half) {
-    const bool has_plane = with_plane != points_.end() && IsSamePoint(*with_plane, point);
-    (has_plane && !IsFacing(*with_plane, direction) ? others : telling).push_back(point);
-    if (has_plane) ++with_plane;
-  }
-  const std::size_t stride = std::max<std::size_t>(1, others.size() / kHolding);
-  for (std::size_t i = 0; i < others.size(); i += stride) telling.push_back(others[i]);
-  return telling;
+  return trajlo::TellingAlong(direction, points_, second_half, kHolding);
 }
 
 int MotionHypothesis::VotesAlong(const Eigen::Vector3d& direction, double place_m) const {

@@ -51,6 +51,13 @@ INSTANTIATE_TEST_SUITE_P(MovingStart, OnAMotorway,
                                            Start{"motorway_hdl64", 5, 1.0, 33.0},
                                            Start{"motorway_hdl64", 3, 1.0, 20.0}));
 
+/// A LiDAR that sees 60 m of the road has too little in view for the first 0.3 s to tell its speed.
+TEST(MovingStart, WhatOneIntervalLeavesOpenIsFoundByFollowingForLonger) {
+  simulation::Scenario scenario = ScenarioOf({"motorway_hdl64", 8, 1.0, 25.0}, 4.0);
+  for (auto& lidar : scenario.rig) lidar.measurement.max_range_m = 60.0;
+  EXPECT_LT(testing::SimulatedRun(scenario).LargestError_m(), 0.3);
+}
+
 /// In a flight with quick turns no constant twist explains the first 0.3 s.
 class InAFlight : public ::testing::TestWithParam<Start> {};
 

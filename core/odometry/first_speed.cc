@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "core/odometry/first_speed.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/odometry/segments/choose_evenly.h"
+#include "core/odometry/start/beginning.h"
+#include "core/odometry/start/coarse_to_fine.h"
+#include "core/odometry/start/facing.h"
+#include "core/odometry/tracker.h"
+
+namespace trajlo {
+namespace {
+
+/// Trackers begin at these speeds, forward and backward.
+constexpr double kFastest_m_s = 50.0;
+constexpr double kStep_m_s = 5.0;
+/// Only those with the most places after this time follow to the end, again from the beginning, at
+/// the speeds that they have come to.
+constexpr double kFirstRound_s = 0.9;
+constexpr std::size_t kFinalists = 3;
+/// Trackers whose speeds differ by less have found the same.
+constexpr double kSame_m_s = 2.5;
+/// No body changes its speed by more in the time of the search.
+constexpr double kMostChange_m_s = 8.0;
+/// The edge of a place: about the back of a car.
+constexpr double kPlace_m = 3.0;
+/// A place was seen again if this many points of later segments lie on its planes.
+constexpr int kSeenAgain = 4;
+/// No traffic has so many places.
+constexpr int kLargeWorld = 40;
+/// By which a speed must have more places than others, in their standard deviations.
+constexpr double kClearDeviations = 2.0;
+/// Of a segment, at most this many points that may tell the speed are followed and enter the map,
+/// and about this many of the others, to hold all but the way along the direction. Those of a road
+/// are too many, and dear.
+constexpr std::size_t kTelling = 1200, kTellingInMap = 2500;
+constexpr std::size_t kHolding = 400, kHoldingInMap = 1000;
+/// Map points around those that do not tell the speed do not tell it, either: in cells of this
+/// edge.
+constexpr double kAround_m = 0.4;
+
+using Cell = std::array<int, 3>;
+
+Cell CellOf(const Eigen::Vector3d& p, double edge_m) {
+  const VoxelKey key = VoxelAt(p, 1.0 / edge_m);
+  return {key.x(), key.y(), key.z()};
+}
+
+/// A tracker that began with some speed along the direction, and what it saw again.
+class Follower {
+ public:
+  Follower(const std::vector<SegmentCloud>& first, Vector6d velocity,
+           const Eigen::Vector3d& direction, double speed_m_s, const OdometryOptions& options,
+           const WindowSolverFactory& make_solver, ThreadPool* threads)
+      : direction_(direction),
+        begin_m_s_(speed_m_s),
+        speed_m_s_(speed_m_s),
+        tracker_(options, make_solver, threads, &rig_) {
+    velocity.head<3>() += (speed_m_s - velocity.head<3>().dot(direction)) * direction;
+    std::vector<SE3> poses = {SE3()};
+    for (const SegmentCloud& segment : first) {
+      poses.push_back(Plus(poses.back(), velocity * segment.Duration_s()));
+    }
+    tracker_.StayLost();
+    tracker_.BeginMap(first, poses, velocity, 0);
+  }
+
+  /// Returns the points of the segment that lie on planes which do not face the direction.
+  std::vector<RegistrationPoint> Follow(SegmentCloud segment) {
+    std::optional<Window> window;
+    is_lost_ = is_lost_ || !tracker_.Step(&segment, &window);
+    if (is_lost_) return {};
+    std::vector<RegistrationPoint> along;
+    const Segment& newest = window->segments.back();
+    const SegmentMotion motion(window->Pose(window->size() - 1), newest.T_world_end);
+    for (const RegistrationPoint& point : newest.points) {
+      const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
+      if (std::abs(point.DistanceToPlane(p_world)) > kAgreement_m) continue;
+      if (!IsFacing(point, direction_)) {
+        along.push_back(point);
+      } else if (++seen_[CellOf(p_world, kPlace_m)] == kSeenAgain) {
+        ++places_;
+      }
+    }
+    speed_m_s_ = direction_.dot(motion.R_begin * window->EndVelocity().head<3>());
+    return along;
+  }
+
+  /// How many were seen again; none by a tracker that slid, which sees the same things at many.
+  int places() const {
+    const bool has_slid = std::abs(speed_m_s_ - begin_m_s_) > kMostChange_m_s;
+    return is_lost_ || has_slid ? 0 : places_;
+  }
+  /// Now.
+  double speed_m_s() const { return speed_m_s_; }
+
+ private:
+  const Eigen::Vector3d direction_;
+  const double begin_m_s_;
+  double speed_m_s_;
+  bool is_lost_ = false;
+  std::map<Cell, int> seen_;
+  int places_ = 0;
+  RigCalibration rig_{false};
+  Tracker tracker_;
+};
+
+using Followers = std::vector<std::unique_ptr<Follower>>;
+
+/// A segment without most of what says nothing about the way along the direction: `along`, of its
+/// points, and the map points around them.
+SegmentCloud Telling(SegmentCloud segment, const std::vector<RegistrationPoint>& along,
+                     const Eigen::Vector3d& direction) {
+  std::set<Cell> cells;
+  for (const RegistrationPoint& point : along) cells.insert(CellOf(point.p_body_m, kAround_m));
+  std::vector<SegmentPoint> telling, others;
+  for (const SegmentPoint& point : segment.map_points) {
+    const bool is_around = cells.count(CellOf(point.p_body_m.cast<double>(), kAround_m)) > 0;
+    (is_around ? others : telling).push_back(point);
+  }
+  segment.map_points = ChooseEvenly(telling, kTellingInMap);
+  others = ChooseEvenly(others, kHoldingInMap);
+  segment.map_points.insert(segment.map_points.end(), others.begin(), others.end());
+  segment.registration_points =
+      ChooseEvenly(TellingAlong(direction, along, segment.registration_points, kHolding), kTelling);
+  return segment;
+}
+
+bool IsSameSpeed(double a_m_s, double b_m_s) { return std::abs(a_m_s - b_m_s) < kSame_m_s; }
+
+/// The speeds of those with the most places, each once.
+std::vector<double> BestSpeeds(Followers followers) {
+  std::stable_sort(followers.begin(), followers.end(),
+                   [](const auto& a, const auto& b) { return a->places() > b->places(); });
+  std::vector<double> speeds_m_s;
+  for (const auto& follower : followers) {
+    const bool is_new = std::none_of(speeds_m_s.begin(), speeds_m_s.end(), [&](double other) {
+      return IsSameSpeed(other, follower->speed_m_s());
+    });
+    if (is_new && speeds_m_s.size() < kFinalists) speeds_m_s.push_back(follower->speed_m_s());
+  }
+  return speeds_m_s;
+}
+
+/// Which of them has the most places, if these are clearly more than those of any that found
+/// another speed, and it is not the speed that `as_found` comes to.
+std::optional<std::size_t> ClearlyAnother(const Followers& finalists, const Follower& as_found) {
+  const auto best =
+      std::max_element(finalists.begin(), finalists.end(),
+                       [](const auto& a, const auto& b) { return a->places() < b->places(); });
+  const double end_m_s = (*best)->speed_m_s();
+  if (IsSameSpeed(as_found.speed_m_s(), end_m_s)) return std::nullopt;
+  int elsewhere = as_found.places();
+  for (const auto& follower : finalists) {
+    if (IsSameSpeed(follower->speed_m_s(), end_m_s)) continue;
+    elsewhere = std::max(elsewhere, follower->places());
+  }
+  if ((*best)->places() <= elsewhere + kClearDeviations * std::sqrt(elsewhere)) return std::nullopt;
+  return static_cast<std::size_t>(best - finalists.begin());
+}
+
+}  // namespace
+
+FirstMotion FindFirstSpeed(const std::vector<SegmentCloud>& segments, std::size_t in_interval,
+                           const FirstMotion& found, const OdometryOptions& options,
+                           const WindowSolverFactory& make_solver, ThreadPool* threads) {
+  const Eigen::Vector3d& direction = *found.open_direction;
+  const double found_m_s = found.velocity.head<3>().dot(direction);
+  const auto middle = segments.begin() + static_cast<std::ptrdiff_t>(in_interval);
+  const std::vector<SegmentCloud> first(segments.begin(), middle);
+
+  // The one that begins as found sees all points; the others, those that it leaves to tell more.
+  Follower as_found(first, found.velocity, direction, found_m_s, options, make_solver, threads);
+  std::vector<SegmentCloud> telling;
+  for (auto segment = middle; segment != segments.end(); ++segment) {
+    telling.push_back(Telling(*segment, as_found.Follow(*segment), direction));
+  }
+  if (as_found.places() >= kLargeWorld) return found;
+
+  ThreadPool one(1);
+  const auto follow = [&](double speed_m_s, double duration_s) {
+    auto follower = std::make_unique<Follower>(first, found.velocity, direction, speed_m_s, options,
+                                               make_solver, &one);
+    const std::int64_t end_ns = first.back().end_ns + Nanoseconds(duration_s);
+    for (const SegmentCloud& segment : telling) {
+      if (segment.end_ns <= end_ns) follower->Follow(segment);
+    }
+    return follower;
+  };
+  Followers all(2 * static_cast<std::size_t>(kFastest_m_s / kStep_m_s) + 1);
+  threads->ParallelFor(all.size(), [&](std::size_t i) {
+    all[i] = follow(static_cast<double>(i) * kStep_m_s - kFastest_m_s, kFirstRound_s);
+  });
+  const std::vector<double> speeds_m_s = BestSpeeds(std::move(all));
+  Followers finalists(speeds_m_s.size());
+  threads->ParallelFor(finalists.size(), [&](std::size_t i) {
+    finalists[i] = follow(speeds_m_s[i], kSpeedSearch_s);
+  });
+
+  const std::optional<std::size_t> best = ClearlyAnother(finalists, as_found);
+  if (!best) return found;
+  FirstMotion motion = found;
+  motion.velocity.head<3>() += (speeds_m_s[*best] - found_m_s) * direction;
+  motion.is_at_rest = false;
+  motion.is_steady = true;
+  return motion;
+}
+
+}  // namespace trajlo
