@@ -11,7 +11,7 @@ import unittest
 
 import trajlo
 from trajlo import _processor, _trajlo
-from support import ROOT, FolderTest
+from support import BUILD, ROOT, FolderTest
 
 PACKAGE = ROOT / "apps" / "python"
 
@@ -60,6 +60,22 @@ class StubTest(unittest.TestCase):
 
     def test_it_is_marked_as_typed(self):
         self.assertTrue((pathlib.Path(trajlo.__file__).parent / "py.typed").exists())
+
+
+class InstallTest(FolderTest):
+
+    def test_it_goes_into_a_wheel_and_into_no_prefix(self):
+        def installed(*more):
+            prefix = self.folder / "-".join(("prefix", *more))
+            subprocess.run(["cmake", f"-DCMAKE_INSTALL_PREFIX={prefix}", *more, "-P",
+                            BUILD / "apps" / "python" / "cmake_install.cmake"],
+                           check=True, capture_output=True)
+            return {str(path.relative_to(prefix)) for path in prefix.rglob("*") if path.is_file()}
+
+        self.assertEqual(installed(), set())
+        wheel = installed("-DCMAKE_INSTALL_COMPONENT=python")
+        self.assertLessEqual({"trajlo/__init__.py", "trajlo/_build.py", "trajlo/py.typed",
+                              "trajlo/config/ouster.yaml"}, wheel)
 
 
 class ProcessorTest(FolderTest):
