@@ -118,7 +118,9 @@ class EvaluationTest(FolderTest):
                 ("^align_first: must be", dict(align_first="-3"))]:
             with self.subTest(message), self.assertRaisesRegex(trajlo.UsageError, message):
                 trajlo.evaluate(self.estimate, self.truth, **wrong)
-        for wrong in (np.eye(3), 2 * np.eye(4), np.full((4, 4), np.nan), "identity"):
+        with self.assertRaisesRegex(trajlo.InputError, "^time_offset_s: must be float64, found fl"):
+            trajlo.evaluate(self.estimate, self.truth, time_offset_s=np.float32(1.6e9))
+        for wrong in (np.ma.masked_array(np.eye(4)), np.eye(3), 2 * np.eye(4), np.full((4, 4), np.nan), "identity"):
             with self.assertRaisesRegex(trajlo.InputError, "^T_body_truth"):
                 trajlo.evaluate(self.estimate, self.truth, T_body_truth=wrong)
 

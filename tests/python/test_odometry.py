@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The estimator: its results as arrays, callbacks, threads, and use at the wrong time."""
+import copy
+import pickle
 import sys
 import threading
 import time
@@ -102,11 +104,11 @@ class MisuseTest(unittest.TestCase):
             stamp_ns = STAMP + index * 100_000_000
             nan.add(np.full((100, 3), np.nan), np.linspace(0, 0.1, 100), stamp_ns=stamp_ns)
             near.add(np.zeros((100, 3)), np.linspace(0, 0.1, 100), stamp_ns=stamp_ns)
-        for odometry, received in ((empty, 0), (nan, 800), (near, 800)):
+        unusable = "none of the 800 points can be used"
+        for odometry, message in ((empty, "^no scan was added"), (nan, unusable), (near, unusable)):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                with self.assertRaisesRegex(trajlo.InputError,
-                                            f"none of the {received} points can be used"):
+                with self.assertRaisesRegex(trajlo.InputError, message):
                     odometry.finish()
             self.assertTrue(odometry.is_finished)
 
@@ -167,6 +169,42 @@ class MisuseTest(unittest.TestCase):
         self.assertIn(__file__, found[0].filename)
         self.assertEqual(told({"input.point_time": "none"}, lambda i: room_points(seed=i)), [])
         self.assertEqual(told({}, lambda index: np.empty((0, 3))), [])
+
+    def test_times_of_another_unit_are_doubted_once(self):
+        def told(factor, scans=15, options=None, lidar=0):
+            odometry = trajlo.Odometry({"threads": 1, **(options or {})})
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                for index in range(scans):
+                    scan = room_scan(index)
+                    times_s = factor * scan.times_s
+                    times_s[::100] = 50.0  # Strays are no unit.
+                    odometry.add(scan.points, times_s, stamp_ns=scan.stamp_ns, lidar=lidar)
+                odometry.finish()
+            found = [w for w in caught if "make a sweep take" in str(w.message)
+                     or "have one time" in str(w.message)]
+            self.assertTrue(all(w.filename == __file__ for w in found))
+            return [str(w.message) for w in found]
+
+        for scans in (4, 15):
+            found = told(1e-3, scans)
+            self.assertEqual(len(found), 1)
+            self.assertRegex(
+                found[0], r"a sweep take 9\.\d*e-05 s, but stamps are 0.1 s apart \(LiDAR 0\)")
+        self.assertRegex(told(20.0)[0], r"a sweep take 1\.9\d s")
+        self.assertIn("one time", told(0.0)[0])
+        self.assertEqual(told(1.0) + told(0.5) + told(1e-3, scans=2), [])
+        self.assertEqual(told(1e-3, options={"input.point_time": "none"}), [])
+        self.assertIn("(LiDAR 1)", told(
+            1e-3, options={"sensor.T_body_lidar": [{}, {}]}, lidar=1)[0])
+
+    def test_it_cannot_be_copied_but_its_trajectory_can(self):
+        odometry = run_room()
+        for call in (pickle.dumps, copy.copy, copy.deepcopy):
+            with self.assertRaisesRegex(TypeError, "cannot be pickled or copied.*its trajectory"):
+                call(odometry)
+        again = pickle.loads(pickle.dumps(odometry.trajectory))
+        self.assertEqual(again.flags.tolist(), odometry.trajectory.flags.tolist())
 
     def test_poses_that_nothing_holds_are_mentioned(self):
         odometry = trajlo.Odometry({"threads": 1})
@@ -333,10 +371,11 @@ class ThreadsTest(unittest.TestCase):
             sys.setswitchinterval(interval)
             other.join()
 
-    def test_another_thread_is_told_that_it_computes(self):
-        """The callback waits, so that the other thread certainly comes in between."""
+    def test_another_thread_that_computes_is_refused_and_one_that_reads_is_not(self):
+        """The callback waits, so that the other thread certainly comes in between: were the reads
+        to wait for the call around the callback, both would for ever."""
         inside, looked = threading.Event(), threading.Event()
-        errors = []
+        errors, read = [], []
 
         def on_window(window):
             inside.set()
@@ -350,7 +389,7 @@ class ThreadsTest(unittest.TestCase):
                          lambda: odometry.windows, lambda: odometry.point_counts,
                          lambda: odometry.add(room_scan(0)), odometry.finish):
                 try:
-                    call()
+                    read.append(call())
                 except trajlo.StateError as error:
                     errors.append(str(error))
             looked.set()
@@ -361,8 +400,62 @@ class ThreadsTest(unittest.TestCase):
             odometry.add(room_scan(index))
         odometry.finish()
         other.join()
-        self.assertEqual(len(errors), 6)
+        self.assertEqual((len(errors), len(read)), (2, 4))
         self.assertIn("is computing", errors[0])
+
+    def test_reads_wait_for_the_call_and_are_not_starved_between_calls(self):
+        alone = run_room(scans=60).trajectory.poses
+        # Made before: between the calls nobody gives the GIL away.
+        scans = [room_scan(index) for index in range(60)]
+        odometry = trajlo.Odometry({"threads": 1})
+        done = threading.Event()
+        errors, lengths = [], []
+
+        def look():
+            while not done.is_set():
+                try:
+                    lengths.append((len(odometry.trajectory), len(odometry.map)))
+                except Exception as error:
+                    errors.append(error)
+
+        others = [threading.Thread(target=look) for _ in range(3)]
+        for other in others:
+            other.start()
+        try:
+            for scan in scans:
+                odometry.add(scan)
+            odometry.finish()
+        finally:
+            done.set()
+            for other in others:
+                other.join(60)
+        self.assertEqual(errors, [])
+        # Each call lets those read who waited for it.
+        self.assertGreater(len(set(lengths)), 30)
+        np.testing.assert_array_equal(odometry.trajectory.poses, alone)
+
+    def test_two_odometries_whose_callbacks_read_each_other_do_not_wait_for_ever(self):
+        both = [None, None]
+        read = [0, 0]
+
+        def work(slot):
+            for index in range(20):
+                both[slot].add(room_scan(index))
+
+        def callback(slot):
+            def on_window(window):
+                read[slot] += len(both[1 - slot].map) > 0
+            return on_window
+
+        for slot in (0, 1):
+            both[slot] = trajlo.Odometry({"threads": 1}, on_window=callback(slot))
+        threads = [threading.Thread(target=work, args=(slot,), daemon=True) for slot in (0, 1)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(60)
+        self.assertFalse(any(thread.is_alive() for thread in threads))
+        self.assertGreater(min(read), 0)
 
     def test_two_at_a_time_do_not_disturb_each_other(self):
         alone = run_room().trajectory.poses

@@ -89,6 +89,8 @@ class SameBytesTest(FolderTest):
                 np.testing.assert_array_equal(found, np.array(expected, dtype=found.dtype), name)
         np.testing.assert_array_equal(odometry.map.astype(np.float32),
                                       ply_points(self.result / "map.ply"))
+        read = trajlo.read_trajectory(self.result / "trajectory.tum")
+        self.assertEqual(read.flags.tolist(), odometry.trajectory.flags.tolist())
         written = np.loadtxt(self.result / "covariance.csv", delimiter=",", skiprows=1)
         upper = np.triu_indices(6)
         np.testing.assert_allclose(odometry.covariances[:, upper[0], upper[1]], written[:, 1:],

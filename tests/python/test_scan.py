@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Arrays in, views out; what does not fit is refused with its name, and never a crash."""
+import copy
 import gc
+import pickle
 import unittest
 import warnings
 
@@ -101,6 +103,18 @@ class ScanTest(unittest.TestCase):
             (r"times_s\[2\]: must be seconds", dict(times_s=nan_time)),
             (r"times_s\[0\].*absolute times are times_ns", dict(times_s=np.full(4, 1.7e9))),
             (r"times_s\[0\]", dict(times_s=np.full(4, np.inf))),
+            (r"times_s\[0\].*absolute times are times_ns",
+             dict(times_s=np.full(4, 1.7e9, np.float32))),
+            ("times_s: must be float64 or times_ns, found float32: near 50 s its neighbours are "
+             "3.8147e-06 s apart", dict(times_s=np.full(4, 50.0, np.float32))),
+            ("points: must be an array without a mask, found a masked array",
+             dict(points=np.ma.masked_array(points, mask=True))),
+            ("times_s: must be an array without a mask",
+             dict(times_s=np.ma.masked_array(np.zeros(4), mask=[1, 0, 0, 0]))),
+            ("times_ns: must be an array without a mask",
+             dict(times_ns=np.ma.masked_array(np.zeros(4, np.int64)))),
+            ("intensities: must be an array without a mask",
+             dict(intensities=np.ma.masked_array(np.zeros(4)))),
             ("times_s: must be numbers", dict(times_s=np.array(["a"] * 4))),
             ("times_ns: must be whole numbers", dict(times_ns=np.zeros(4))),
             ("times_ns: must have one element", dict(times_ns=np.zeros(5, np.int64))),
@@ -117,6 +131,22 @@ class ScanTest(unittest.TestCase):
             with self.subTest(message):
                 with self.assertRaisesRegex(trajlo.InputError, message):
                     trajlo.Scan(**{"points": points, "stamp_ns": STAMP, **wrong})
+
+    def test_pickles_and_copies_are_the_same(self):
+        points = room_points(100)
+        points[3] = np.nan
+        for arguments in (dict(), dict(times_s=np.linspace(0, 0.1, 100), lidar=2,
+                                       intensities=np.arange(100))):
+            scan = trajlo.Scan(points, stamp_ns=STAMP, **arguments)
+            for again in (pickle.loads(pickle.dumps(scan)), copy.deepcopy(scan)):
+                for name in ("points", "times_ns", "intensities"):
+                    np.testing.assert_array_equal(getattr(again, name), getattr(scan, name))
+                for name in ("stamp_ns", "recorded_ns", "has_point_times", "lidar"):
+                    self.assertEqual(getattr(again, name), getattr(scan, name))
+
+    def test_a_misspelt_argument_comes_with_the_nearest(self):
+        with self.assertRaisesRegex(TypeError, "no argument 'stamp'; did you mean 'stamp_ns'"):
+            trajlo.Scan(room_points(4), stamp=1)
 
     def test_any_arrays_make_a_scan_or_an_error(self):
         random = np.random.default_rng(1)

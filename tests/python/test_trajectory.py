@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Poses at any time, against scipy's matrix exponential and logarithm."""
+import copy
+import pickle
 import unittest
 
 import numpy as np
@@ -37,7 +39,7 @@ class TrajectoryTest(FolderTest):
         np.testing.assert_array_equal(t.positions, self.poses[:, :3, 3])
         np.testing.assert_allclose(Rotation.from_quat(t.quaternions).as_matrix(),
                                    self.poses[:, :3, :3], atol=1e-14)
-        self.assertEqual(t.flags.tolist(), [0] * 10)
+        self.assertIsNone(t.flags)
 
     def test_between_poses_the_twist_is_constant(self):
         for i, share in [(0, 0.25), (4, 0.5), (8, 0.9)]:
@@ -75,6 +77,54 @@ class TrajectoryTest(FolderTest):
         with self.assertRaises(trajlo.InputError):
             trajlo.Trajectory(np.empty(0, np.int64), np.empty((0, 4, 4))).at(0.0)
 
+    def test_times_that_float32_cannot_hold_are_refused(self):
+        t = self.trajectory
+        for times in (np.float32(t.times[3]), t.times.astype(np.float32),
+                      t.times.astype(">f4"), list(t.times.astype(np.float32)), np.float32(17.0),
+                      np.float16(0.1)):
+            for call in (t.at, t.sample):
+                with self.assertRaisesRegex(trajlo.InputError,
+                                            "times_s: must be float64 or times_ns, found float"):
+                    call(times)
+        # Near zero it is fine enough.
+        early = trajlo.Trajectory(self.times_ns - BEGIN, self.poses)
+        np.testing.assert_allclose(early.at(np.float32(0.15)), early.at(0.15), atol=1e-5)
+
+    def test_pickles_and_copies_are_the_same_to_the_last_bit(self):
+        sampled = self.trajectory.sample(times_ns=self.times_ns[:-1] + 7_654_321)
+        for again in (pickle.loads(pickle.dumps(sampled)), copy.copy(sampled),
+                      copy.deepcopy(sampled)):
+            np.testing.assert_array_equal(again.times_ns, sampled.times_ns)
+            np.testing.assert_array_equal(again.quaternions, sampled.quaternions)
+            np.testing.assert_array_equal(again.positions, sampled.positions)
+            self.assertIsNone(again.flags)
+        with self.assertRaisesRegex(trajlo.InputError, "no pickle of a trajectory"):
+            trajlo.Trajectory.__new__(trajlo.Trajectory).__setstate__((1, 2))
+
+    def test_flags_of_a_file_are_those_beside_it_if_they_are_of_its_poses(self):
+        path, flags = self.folder / "trajectory.tum", self.folder / "flags.csv"
+        self.trajectory.save_tum(path)
+        self.assertIsNone(trajlo.read_trajectory(path).flags)
+        lines = [f"{t_ns // 10**9}.{t_ns % 10**9:09d},{k},name" for k, t_ns in
+                 enumerate(self.times_ns.tolist())]
+        head = "t_s,flags,flag_names"
+        flags.write_text("\n".join([head] + lines) + "\n")
+        read = trajlo.read_trajectory(str(path))
+        self.assertEqual(read.flags.tolist(), list(range(10)))
+        # Those of a time between two poses are those of the later one, as in flags.csv.
+        self.assertEqual(read.sample(times_ns=self.times_ns[3:5] + 1).flags.tolist(), [4, 5])
+        self.assertEqual(pickle.loads(pickle.dumps(read)).flags.tolist(), list(range(10)))
+        for other in ([head] + lines[:-1], lines, [head, "nan,1,", "1e999,2,"], ["\0"],
+                      [head] + [lines[0].replace("01,", "02,", 1)] + lines[1:]):
+            flags.write_text("\n".join(other) + "\n")
+            self.assertIsNone(trajlo.read_trajectory(path).flags, other)
+
+    def test_a_misspelt_argument_comes_with_the_nearest(self):
+        for call in (lambda: self.trajectory.at(times_n=BEGIN),
+                     lambda: self.trajectory.sample(time_ns=BEGIN)):
+            with self.assertRaisesRegex(TypeError, r"\(\) has no argument '.*'; did you mean 'times"):
+                call()
+
     def test_arguments_that_do_not_fit(self):
         t, times, poses = self.trajectory, self.times_ns, self.poses
         scaled, nan, mirrored = poses.copy(), poses.copy(), poses.copy()
@@ -100,6 +150,9 @@ class TrajectoryTest(FolderTest):
                 ("times_s: must be seconds", lambda: t.at(t.times_ns)),
                 ("whole numbers", lambda: t.at(times_ns=t.times)),
                 ("of shape", lambda: t.at(np.zeros((2, 2)))),
+                ("without a mask", lambda: t.at(np.ma.masked_array(t.times, mask=True))),
+                ("without a mask", lambda: t.at(times_ns=np.ma.masked_array(times))),
+                ("without a mask", lambda: trajlo.Trajectory(times, np.ma.masked_array(poses))),
                 ("after the one before", lambda: t.sample(times_ns=[BEGIN, BEGIN])),
         ]:
             with self.subTest(message), self.assertRaisesRegex(trajlo.InputError, message):
@@ -114,7 +167,7 @@ class TrajectoryTest(FolderTest):
         again = trajlo.read_trajectory(path)
         np.testing.assert_array_equal(again.times_ns, self.times_ns)
         np.testing.assert_allclose(again.poses, self.poses, atol=2e-9)
-        with self.assertRaises(trajlo.OutputError):
+        with self.assertRaisesRegex(trajlo.OutputError, "or pass overwrite=True to replace it"):
             self.trajectory.save_tum(path)
         self.trajectory.save_tum(path, overwrite=True)
         with self.assertRaises(trajlo.OutputError):

@@ -108,10 +108,16 @@ class InspectedTest(unittest.TestCase):
                         {"kernel_m": float("nan")}, {"max_iterations": 0}, {"point_weights": []}):
             with self.assertRaises(trajlo.InputError, msg=weights):
                 self.window.solve(**weights)
-        with self.assertRaisesRegex(trajlo.ConfigError, "huber"):
+        with self.assertRaisesRegex(trajlo.ConfigError, "^kernel: must be one of .* 'huber'"):
             self.window.solve(kernel="hubber")
-        with self.assertRaises(trajlo.ConfigError):
+        with self.assertRaisesRegex(trajlo.ConfigError, "^solver: must be one of ceres"):
             self.window.solve(solver="newton")
+
+    def test_a_misspelt_argument_comes_with_the_nearest(self):
+        with self.assertRaisesRegex(TypeError, "has no argument 'sigma'; did you mean 'sigma_m'"):
+            self.window.solve(sigma=1)
+        with self.assertRaisesRegex(TypeError, "no argument 'temperature'; it has sigma_m, kernel"):
+            self.window.solve(temperature=1)
 
 
 class CallbackTest(unittest.TestCase):

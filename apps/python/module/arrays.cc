@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "apps/python/module/errors.h"
+#include "core/io/format_text.h"
+#include "core/options/did_you_mean.h"
 
 namespace trajlo::python {
 namespace {
@@ -16,8 +18,17 @@ std::string ShapeText(const py::array& array) { return py::str(array.attr("shape
   throw DataError(name + ": must be " + expected + ", found " + found);
 }
 
+/// What a mask hides would be used as if it were not hidden.
+void RequireNoMask(const py::object& object, const char* name) {
+  if (!py::isinstance(object, py::module_::import("numpy.ma").attr("MaskedArray"))) return;
+  Fail(name, "an array without a mask",
+       "a masked array; give the rows that are not masked, or, of floats, "
+       "array.filled(numpy.nan): a point of NaN is a missing return");
+}
+
 /// Whatever numpy makes an array of.
 py::array Array(const py::object& object, const char* name) {
+  RequireNoMask(object, name);
   py::array array = py::array::ensure(object);
   if (!array) Fail(name, "an array", py::str(py::type::of(object).attr("__name__")));
   return array;
@@ -56,6 +67,13 @@ void CopyPoints(const py::array& array, std::vector<LidarPoint>* points) {
     }
     row += array.strides(0);
   }
+}
+
+/// From a number to the next larger one of this size in bytes.
+double Spacing(double number, py::ssize_t size) {
+  if (number == 0.0 || !std::isfinite(number)) return 0.0;
+  constexpr int kHalf = 10, kSingle = 23;  // Bits behind the first one.
+  return std::ldexp(1.0, std::ilogb(number) - (size < 4 ? kHalf : kSingle));
 }
 
 void RequireList(const py::array& array, const char* name) {
@@ -133,6 +151,21 @@ std::vector<double> ReadReals(const py::object& object, const char* name) {
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
+void RequireFineSeconds(const py::object& object, const char* name, const std::string& instead) {
+  constexpr double kCoarsest_s = 1e-6;
+  const py::array array = Array(object, name);
+  if (array.dtype().kind() != 'f' || array.itemsize() >= 8) return;
+  const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>(array);
+  for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+    const double spacing_s = Spacing(numbers.data()[i], array.itemsize());
+    if (spacing_s <= kCoarsest_s) continue;
+    Fail(name, "float64" + instead,
+         FormatText("%s: near %g s its neighbours are %g s apart",
+                    std::string(py::str(array.dtype().attr("name"))).c_str(), numbers.data()[i],
+                    spacing_s));
+  }
+}
+
 std::vector<std::int64_t> ReadIntegers(const py::object& object, const char* name) {
   const py::array array = Array(object, name);
   RequireList(array, name);
@@ -156,6 +189,7 @@ std::vector<SE3> ReadPoses(const py::object& object, const char* name) {
 }
 
 SE3 ReadPose(const py::object& object, const char* name) {
+  RequireNoMask(object, name);
   // Lists of whole numbers are fine, too.
   const auto numbers =
       py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
@@ -168,6 +202,18 @@ SE3 ReadPose(const py::object& object, const char* name) {
 
 std::string PathText(const py::object& path) {
   return py::cast<std::string>(py::module_::import("os").attr("fsencode")(path));
+}
+
+void RefuseUnknown(const py::kwargs& unknown, const std::string& function,
+                   const std::vector<std::string>& known) {
+  for (const auto& item : unknown) {
+    const std::string name = py::str(item.first);
+    std::string hint = Suggestion(NearestOrLonger(name, known));
+    if (hint.empty()) {
+      for (const std::string& other : known) hint += (hint.empty() ? "; it has " : ", ") + other;
+    }
+    throw py::type_error(function + " has no argument '" + name + "'" + hint);
+  }
 }
 
 bool IsScalar(const py::object& object) {

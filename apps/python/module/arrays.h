@@ -11,7 +11,8 @@
 #include "manifolds/se3.h"
 
 // Between numpy's arrays and ours. What comes in may have any strides, and is copied once. All
-// throw DataError, which names the argument, what was found, and what is expected.
+// throw DataError, which names the argument, what was found, and what is expected; a masked array
+// is refused, as its mask would be lost.
 namespace trajlo::python {
 
 namespace py = pybind11;
@@ -21,6 +22,9 @@ namespace py = pybind11;
 bool ReadPoints(const py::object& array, std::vector<LidarPoint>* points);
 /// Numbers of any real kind, finite or not; of shape (N,), or a single one.
 std::vector<double> ReadReals(const py::object& array, const char* name);
+/// Refuses times in s whose type is too coarse for them: at a time of today, float32 is off by up
+/// to 64 s. `instead`: what else can be given, such as " or times_ns".
+void RequireFineSeconds(const py::object& array, const char* name, const std::string& instead = "");
 /// Whole numbers of any kind within int64; of shape (N,), or a single one.
 std::vector<std::int64_t> ReadIntegers(const py::object& array, const char* name);
 /// Transforms (N, 4, 4): finite, rotations orthonormal to 1e-3.
@@ -30,6 +34,10 @@ SE3 ReadPose(const py::object& array, const char* name);
 
 /// A path of any of Python's kinds, in the bytes of the file system.
 std::string PathText(const py::object& path);
+
+/// Throws TypeError for arguments that `function` does not have, with the nearest that it has.
+void RefuseUnknown(const py::kwargs& unknown, const std::string& function,
+                   const std::vector<std::string>& known);
 
 /// True for a single number in place of an array.
 bool IsScalar(const py::object& array);

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,12 +11,13 @@
 #include "apps/evaluate/flag_values.h"
 #include "apps/python/module/arrays.h"
 #include "apps/python/module/bindings.h"
+#include "apps/python/module/errors.h"
+#include "apps/python/module/flagged_trajectory.h"
 #include "apps/usage_error.h"
 #include "core/evaluation/evaluation_error.h"
 #include "core/io/errors.h"
 #include "core/io/format_text.h"
 #include "core/io/scan_stamps.h"
-#include "core/odometry/trajectory/trajectory.h"
 
 namespace trajlo::python {
 namespace {
@@ -53,7 +55,7 @@ Poses ReadFile(const py::object& path, const std::string& format, const py::obje
   return poses;
 }
 
-Poses FromTrajectory(const Trajectory& trajectory, const std::string& name) {
+Poses FromTrajectory(const FlaggedTrajectory& trajectory, const std::string& name) {
   Poses poses;
   poses.name = name;
   for (const ControlPose& pose : trajectory.poses()) {
@@ -64,17 +66,23 @@ Poses FromTrajectory(const Trajectory& trajectory, const std::string& name) {
   return poses;
 }
 
-Trajectory ToTrajectory(const Poses& poses) {
+/// `flags`: one for each pose, or None.
+FlaggedTrajectory ToTrajectory(const Poses& poses, const py::object& flags) {
   if (!poses.timed.HasStamps()) {
     throw InputError(poses.name, "the poses have no stamps", "Give a file of them: times=...");
   }
+  std::vector<std::int64_t> known(poses.timed.size());
+  if (!flags.is_none()) known = ReadIntegers(flags, "flags");
+  if (known.size() != poses.timed.size()) throw DataError("flags: must be one for each pose");
   Trajectory trajectory;
   for (std::size_t i = 0; i < poses.timed.size(); ++i) {
     const Eigen::Affine3d& T = poses.timed.T_world_body[i];
-    trajectory.Append(
-        {poses.timed.t_ns[i], {Eigen::Quaterniond(T.linear()).normalized(), T.translation()}, 0});
+    trajectory.Append({poses.timed.t_ns[i],
+                       {Eigen::Quaterniond(T.linear()).normalized(), T.translation()},
+                       static_cast<unsigned>(known[i])});
   }
-  return trajectory;
+  if (flags.is_none()) return FlaggedTrajectory(trajectory);
+  return {trajectory, PoseFlags(trajectory.poses(), std::nullopt)};
 }
 
 /// The keyword arguments of evaluate(), which are all there.
@@ -118,6 +126,7 @@ EvaluationOptions OptionsFrom(const Arguments& arguments) {
   o.association.rule = ParseAssociation(arguments.Text("association"));
   o.association.max_gap_s = arguments.Number("max_gap_s", 0.0, kLong_s);
   o.association.max_time_difference_s = arguments.Number("max_time_difference_s", 0.0, kLong_s);
+  RequireFineSeconds(arguments.Get("time_offset_s"), "time_offset_s");
   o.time_offset_s = arguments.Number("time_offset_s", -2.0 * kLong_s, 2.0 * kLong_s);
   o.estimate_time_offset = arguments.Flag("estimate_time_offset");
   o.time_offset_reach_s = arguments.Number("time_offset_reach_s", 0.001, 60.0);
@@ -214,7 +223,7 @@ void BindEvaluation(py::module_* module) {
       .def_static("from_file", &ReadFile, py::arg("path"), py::arg("format"), py::arg("times"),
                   py::arg("repeated_stamps"), py::arg("association"))
       .def_static("from_trajectory", &FromTrajectory, py::arg("trajectory"), py::arg("name"))
-      .def("trajectory", &ToTrajectory)
+      .def("trajectory", &ToTrajectory, py::arg("flags") = py::none())
       .def_readonly("warnings", &Poses::warnings);
   module->def("evaluate", &EvaluatePoses, py::arg("estimate"), py::arg("truth"),
               py::arg("arguments"));

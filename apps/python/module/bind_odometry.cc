@@ -32,8 +32,7 @@ void BindOdometry(py::module_* module) {
       .def("add", &OdometrySession::Add, py::arg("scan"))
       .def("finish", &OdometrySession::Finish)
       .def_property_readonly("is_finished", &OdometrySession::is_finished)
-      .def("trajectory",
-           [](const OdometrySession& session) { return session.odometry().trajectory(); })
+      .def("trajectory", &OdometrySession::Poses)
       .def("windows", &OdometrySession::Windows)
       .def("covariances", &OdometrySession::Covariances)
       .def("map", &OdometrySession::MapPoints)
@@ -42,6 +41,7 @@ void BindOdometry(py::module_* module) {
       .def("lost_at_ns",
            [](const OdometrySession& session) { return session.odometry().lost_at_ns(); })
       .def("remarks", &OdometrySession::Remarks)
+      .def("take_doubt_of_times", &OdometrySession::TakeDoubtOfTimes, py::arg("at_end"))
       .def("expects_times", &OdometrySession::ExpectsTimes, py::arg("lidar"))
       .def("shortcomings", &OdometrySession::Shortcomings);
 }

@@ -30,16 +30,16 @@ class Reader {
   }
 
   std::size_t size() const {
-    exclusive_.RequireReadable();
+    exclusive_.AwaitReadable();
     return source_->size();
   }
   const std::string& description() const {
-    exclusive_.RequireReadable();
+    exclusive_.AwaitReadable();
     return source_->description();
   }
 
   py::dict Report() const {
-    exclusive_.RequireReadable();
+    exclusive_.AwaitReadable();
     const ReadReport& report = source_->report();
     py::dict dict;
     dict["scans_listed"] = report.scans_listed;

@@ -2,10 +2,12 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "apps/python/module/arrays.h"
 #include "apps/python/module/bindings.h"
+#include "apps/python/module/errors.h"
 #include "apps/python/module/make_scan.h"
 #include "core/io/stamp_text.h"
 #include "core/scans/nanoseconds.h"
@@ -61,8 +63,28 @@ std::string Text(const LidarScan& scan) {
 }
 
 LidarScan Make(const py::object& points, const py::object& times_s, const py::object& times_ns,
-               const py::object& stamp_ns, const py::object& intensities, std::int64_t lidar) {
+               const py::object& stamp_ns, const py::object& intensities, std::int64_t lidar,
+               const py::kwargs& unknown) {
+  RefuseUnknown(unknown, "Scan()",
+                {"points", "times_s", "times_ns", "stamp_ns", "intensities", "lidar"});
   return MakeScan({points, times_s, times_ns, intensities, stamp_ns, lidar});
+}
+
+/// What a pickle holds.
+py::tuple State(const py::object& self) {
+  const auto& scan = self.cast<const LidarScan&>();
+  return py::make_tuple(Points(self).attr("copy")(), Column(self, &LidarPoint::t_ns).attr("copy")(),
+                        Column(self, &LidarPoint::intensity).attr("copy")(), scan.stamp_ns,
+                        scan.recorded_ns, scan.has_point_times, scan.lidar_id);
+}
+
+std::shared_ptr<LidarScan> FromState(const py::tuple& state) {
+  if (state.size() != 7) throw DataError("this is no pickle of a scan of this version");
+  auto scan = std::make_shared<LidarScan>(MakeScan(
+      {state[0], py::none(), state[1], state[2], state[3], state[6].cast<std::int64_t>()}));
+  scan->recorded_ns = state[4].cast<std::optional<std::int64_t>>();
+  scan->has_point_times = state[5].cast<bool>();
+  return scan;
 }
 
 }  // namespace
@@ -70,7 +92,7 @@ LidarScan Make(const py::object& points, const py::object& times_s, const py::ob
 void BindScan(py::module_* module) {
   py::class_<LidarScan, std::shared_ptr<LidarScan>>(*module, "Scan", kDoc)
       .def(py::init(&Make), py::arg("points"), py::arg("times_s") = py::none(), py::kw_only(),
-           py::arg("times_ns") = py::none(), py::arg("stamp_ns"),
+           py::arg("times_ns") = py::none(), py::arg("stamp_ns") = py::none(),
            py::arg("intensities") = py::none(), py::arg("lidar") = 0)
       .def_property_readonly("points", &Points,
                              "(N, 3) float32, metres, LiDAR frame; a read-only view, no copy.")
@@ -88,6 +110,7 @@ void BindScan(py::module_* module) {
       .def_readonly("has_point_times", &LidarScan::has_point_times,
                     "False for motion-corrected scans.")
       .def_readonly("lidar", &LidarScan::lidar_id, "Which LiDAR of the rig, from 0.")
+      .def(py::pickle(&State, &FromState))
       .def("__len__", [](const LidarScan& scan) { return scan.points.size(); })
       .def("__repr__", &Text);
 }

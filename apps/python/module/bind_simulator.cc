@@ -11,8 +11,8 @@
 #include "apps/python/module/arrays.h"
 #include "apps/python/module/bindings.h"
 #include "apps/python/module/exclusive.h"
+#include "apps/python/module/flagged_trajectory.h"
 #include "core/config/config_error.h"
-#include "core/odometry/trajectory/trajectory.h"
 #include "core/simulation/scan_stream.h"
 #include "core/simulation/scenario_parameters.h"
 #include "core/simulation/simulator.h"
@@ -60,9 +60,9 @@ std::shared_ptr<Simulator> MakeSimulator(
   }
 }
 
-Trajectory Truth(const Simulator& simulator) {
+FlaggedTrajectory Truth(const Simulator& simulator) {
   const py::gil_scoped_release release;
-  Trajectory truth;
+  FlaggedTrajectory truth;
   for (std::int64_t t = simulator.start_ns(); t <= simulator.end_ns(); t += kTruthStep_ns) {
     truth.Append({t, simulator.TrueWorldFromBody(t), 0});
   }

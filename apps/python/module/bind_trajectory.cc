@@ -12,10 +12,10 @@
 #include "apps/python/module/arrays.h"
 #include "apps/python/module/bindings.h"
 #include "apps/python/module/errors.h"
+#include "apps/python/module/flagged_trajectory.h"
 #include "apps/usage_error.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_writer.h"
-#include "core/odometry/trajectory/trajectory.h"
 #include "core/scans/nanoseconds.h"
 
 namespace trajlo::python {
@@ -36,6 +36,12 @@ times_ns   nanoseconds, int or (M,), which is exact: seconds since 1970 are roun
 outside    what to do about times that the trajectory does not cover: "raise" an InputError, or "nan"
 
 Returns (4, 4) for a number and (M, 4, 4) for an array.)";
+
+constexpr char kFlagsDoc[] =
+    R"((N,) uint32: bits as in the column `flags` of windows and in flags.csv; 0 is good.
+
+None where nothing is known: only an Odometry sets them, and read_trajectory() finds those of a
+result folder.)";
 
 constexpr char kSampleDoc[] =
     R"(A trajectory of the poses at these times, which must increase. Arguments as for at().)";
@@ -96,6 +102,7 @@ Times TimesFrom(const Trajectory& trajectory, const py::object& times_s,
                 const py::object& times_ns) {
   if (times_s.is_none() == times_ns.is_none()) throw UsageError("give either times_s or times_ns");
   if (times_s.is_none()) return {ReadIntegers(times_ns, "times_ns"), IsScalar(times_ns)};
+  RequireFineSeconds(times_s, "times_s", " or times_ns");
   Times times{{}, IsScalar(times_s)};
   for (const double t_s : ReadReals(times_s, "times_s")) {
     times.ns.push_back(NsFromSeconds(t_s, trajectory));
@@ -119,8 +126,10 @@ SE3 NoPose() {
   return pose;
 }
 
-py::array_t<double> At(const Trajectory& trajectory, const py::object& times_s,
-                       const py::object& times_ns, const std::string& outside) {
+py::array_t<double> At(const FlaggedTrajectory& trajectory, const py::object& times_s,
+                       const py::object& times_ns, const std::string& outside,
+                       const py::kwargs& unknown) {
+  RefuseUnknown(unknown, "at()", {"times_s", "times_ns", "outside"});
   if (outside != "raise" && outside != "nan") {
     throw UsageError("outside: must be raise or nan, found '" + outside + "'");
   }
@@ -135,8 +144,9 @@ py::array_t<double> At(const Trajectory& trajectory, const py::object& times_s,
   return times.is_scalar ? PoseArray(poses.front()) : PoseArray(poses);
 }
 
-Trajectory Sample(const Trajectory& trajectory, const py::object& times_s,
-                  const py::object& times_ns) {
+FlaggedTrajectory Sample(const FlaggedTrajectory& trajectory, const py::object& times_s,
+                         const py::object& times_ns, const py::kwargs& unknown) {
+  RefuseUnknown(unknown, "sample()", {"times_s", "times_ns"});
   const Times times = TimesFrom(trajectory, times_s, times_ns);
   std::vector<SE3> poses;
   poses.reserve(times.ns.size());
@@ -145,7 +155,9 @@ Trajectory Sample(const Trajectory& trajectory, const py::object& times_s,
     if (!pose) FailOutside(trajectory, t_ns);
     poses.push_back(*pose);
   }
-  return Make(times.ns, poses);
+  const Trajectory sampled = Make(times.ns, poses);
+  if (!trajectory.has_flags()) return FlaggedTrajectory(sampled);
+  return {sampled, PoseFlags(trajectory.poses(), std::nullopt)};
 }
 
 template <typename T, typename Get>
@@ -161,16 +173,53 @@ py::array_t<T> Collect(const Trajectory& trajectory, int columns, Get get) {
   return array;
 }
 
-py::array_t<double> Quaternions(const Trajectory& trajectory) {
+py::array_t<double> Quaternions(const FlaggedTrajectory& trajectory) {
   return Collect<double>(trajectory, 4, [](const ControlPose& pose, double* out) {
     std::copy_n(pose.T_world_body.q.coeffs().data(), 4, out);
   });
 }
 
-py::array_t<double> Positions(const Trajectory& trajectory) {
+py::array_t<double> Positions(const FlaggedTrajectory& trajectory) {
   return Collect<double>(trajectory, 3, [](const ControlPose& pose, double* out) {
     std::copy_n(pose.T_world_body.t.data(), 3, out);
   });
+}
+
+py::object Flags(const FlaggedTrajectory& trajectory) {
+  if (!trajectory.has_flags()) return py::none();
+  return Collect<std::uint32_t>(trajectory, 0,
+                                [](const ControlPose& pose, auto* out) { *out = pose.flags; });
+}
+
+py::array_t<std::int64_t> TimesNs(const FlaggedTrajectory& trajectory) {
+  return Collect<std::int64_t>(trajectory, 0,
+                               [](const ControlPose& pose, auto* out) { *out = pose.t_ns; });
+}
+
+/// What a pickle holds; matrices would not give the same bits again.
+py::tuple State(const FlaggedTrajectory& trajectory) {
+  return py::make_tuple(TimesNs(trajectory), Quaternions(trajectory), Positions(trajectory),
+                        Flags(trajectory));
+}
+
+FlaggedTrajectory FromState(const py::tuple& state) {
+  const auto fail = [] { throw DataError("this is no pickle of a trajectory of this version"); };
+  if (state.size() != 4) fail();
+  const std::vector<std::int64_t> times_ns = ReadIntegers(state[0], "times_ns");
+  const auto q = py::cast<py::array_t<double, py::array::c_style>>(state[1]);
+  const auto t = py::cast<py::array_t<double, py::array::c_style>>(state[2]);
+  const bool has_flags = !state[3].is_none();
+  const std::vector<std::int64_t> flags =
+      has_flags ? ReadIntegers(state[3], "flags") : std::vector<std::int64_t>(times_ns.size());
+  const auto count = static_cast<py::ssize_t>(times_ns.size());
+  if (q.size() != 4 * count || t.size() != 3 * count || flags.size() != times_ns.size()) fail();
+  Trajectory trajectory;
+  for (std::size_t i = 0; i < times_ns.size(); ++i) {
+    const SE3 pose{Eigen::Quaterniond(q.data() + 4 * i), Eigen::Vector3d(t.data() + 3 * i)};
+    trajectory.Append({times_ns[i], pose, static_cast<unsigned>(flags[i])});
+  }
+  if (!has_flags) return FlaggedTrajectory(trajectory);
+  return {trajectory, PoseFlags(trajectory.poses(), std::nullopt)};
 }
 
 void SaveTum(const Trajectory& trajectory, const std::string& path, bool overwrite) {
@@ -180,7 +229,7 @@ void SaveTum(const Trajectory& trajectory, const std::string& path, bool overwri
   writer.Close();
 }
 
-std::string Text(const Trajectory& trajectory) {
+std::string Text(const FlaggedTrajectory& trajectory) {
   const std::vector<ControlPose>& poses = trajectory.poses();
   if (poses.empty()) return "<trajlo.Trajectory without poses>";
   return "<trajlo.Trajectory of " + std::to_string(poses.size()) + " poses from " +
@@ -190,9 +239,10 @@ std::string Text(const Trajectory& trajectory) {
 }  // namespace
 
 void BindTrajectory(py::module_* module) {
-  py::class_<Trajectory>(*module, "Trajectory", kDoc)
+  py::class_<FlaggedTrajectory>(*module, "Trajectory", kDoc)
       .def(py::init([](const py::object& times_ns, const py::object& poses) {
-             return Make(ReadIntegers(times_ns, "times_ns"), ReadPoses(poses, "poses"));
+             return FlaggedTrajectory(
+                 Make(ReadIntegers(times_ns, "times_ns"), ReadPoses(poses, "poses")));
            }),
            py::arg("times_ns"), py::arg("poses"))
       .def("at", &At, py::arg("times_s") = py::none(), py::kw_only(),
@@ -201,39 +251,29 @@ void BindTrajectory(py::module_* module) {
            py::arg("times_ns") = py::none(), kSampleDoc)
       .def(
           "save_tum",
-          [](const Trajectory& trajectory, const py::object& path, bool overwrite) {
+          [](const FlaggedTrajectory& trajectory, const py::object& path, bool overwrite) {
             SaveTum(trajectory, PathText(path), overwrite);
           },
           py::arg("path"), py::arg("overwrite") = false,
           "Writes \"t x y z qx qy qz qw\" lines, s and m, as trajlo_run does. Raises OutputError.")
-      .def_property_readonly(
-          "times_ns",
-          [](const Trajectory& trajectory) {
-            return Collect<std::int64_t>(trajectory, 0,
-                                         [](const auto& pose, auto* out) { *out = pose.t_ns; });
-          },
-          "(N,) int64, nanoseconds.")
+      .def_property_readonly("times_ns", &TimesNs, "(N,) int64, nanoseconds.")
       .def_property_readonly(
           "times",
-          [](const Trajectory& trajectory) {
+          [](const FlaggedTrajectory& trajectory) {
             return Collect<double>(trajectory, 0,
                                    [](const auto& pose, auto* out) { *out = Seconds(pose.t_ns); });
           },
           "(N,) float64, seconds; since 1970 they are rounded to 0.2 us, and times_ns is exact.")
       .def_property_readonly(
-          "poses", [](const Trajectory& trajectory) { return PoseArray(PosesOf(trajectory)); },
+          "poses",
+          [](const FlaggedTrajectory& trajectory) { return PoseArray(PosesOf(trajectory)); },
           "(N, 4, 4) float64: T_world_body, metres.")
       .def_property_readonly("positions", &Positions, "(N, 3) float64, metres, world frame.")
       .def_property_readonly("quaternions", &Quaternions,
                              "(N, 4) float64: qx qy qz qw of T_world_body, of unit norm.")
-      .def_property_readonly(
-          "flags",
-          [](const Trajectory& trajectory) {
-            return Collect<std::uint32_t>(trajectory, 0,
-                                          [](const auto& pose, auto* out) { *out = pose.flags; });
-          },
-          "(N,) uint32: bits as in the column `flags` of windows; 0 is good.")
-      .def("__len__", [](const Trajectory& trajectory) { return trajectory.poses().size(); })
+      .def_property_readonly("flags", &Flags, kFlagsDoc)
+      .def(py::pickle(&State, &FromState))
+      .def("__len__", [](const FlaggedTrajectory& trajectory) { return trajectory.poses().size(); })
       .def("__repr__", &Text);
 }
 

@@ -9,6 +9,7 @@
 #include "apps/python/module/bindings.h"
 #include "apps/python/module/errors.h"
 #include "apps/python/module/inspected_window.h"
+#include "core/config/config_error.h"
 
 namespace trajlo::python {
 namespace {
@@ -107,9 +108,19 @@ py::array_t<std::int64_t> Times(const InspectedWindow& inspected) {
   return CopyOf(times);
 }
 
-/// A choice by the name that it has in the configuration.
-RunConfig With(RunConfig config, const char* key, const std::optional<std::string>& name) {
-  if (name) ApplyOverrides(std::string(key) + "=" + *name, &config);
+/// A choice by the name that it has in the configuration. Messages name the argument, not the key.
+RunConfig With(RunConfig config, const char* argument, const std::string& key,
+               const std::optional<std::string>& name) {
+  if (!name) return config;
+  try {
+    ApplyOverrides(key + "=" + *name, &config, argument);
+  } catch (const ConfigError& error) {
+    std::string message = error.what();
+    const std::string quoted = "'" + key + "' ";
+    const std::size_t at = message.find(quoted);
+    if (at != std::string::npos) message.erase(at, quoted.size());
+    throw ConfigError(message);
+  }
   return config;
 }
 
@@ -119,12 +130,16 @@ InspectedWindow Solve(const InspectedWindow& inspected, const std::optional<doub
                       const std::optional<double>& translation_m2_s3,
                       const std::optional<double>& rotation_rad2_s3,
                       const std::optional<double>& prior_factor, const py::object& point_weights,
-                      const std::optional<std::string>& solver, int max_iterations) {
+                      const std::optional<std::string>& solver, int max_iterations,
+                      const py::kwargs& unknown) {
+  RefuseUnknown(unknown, "solve()",
+                {"sigma_m", "kernel", "kernel_m", "translation_m2_s3", "rotation_rad2_s3",
+                 "prior_factor", "point_weights", "solver", "max_iterations"});
   Reweighing reweighing{sigma_m,          {},           kernel_m, translation_m2_s3,
                         rotation_rad2_s3, prior_factor, {}};
   if (kernel) {
-    reweighing.kernel =
-        With(inspected.config(), "expert.registration.kernel", kernel).odometry.registration.kernel;
+    reweighing.kernel = With(inspected.config(), "kernel", "expert.registration.kernel", kernel)
+                            .odometry.registration.kernel;
   }
   if (!point_weights.is_none()) {
     reweighing.point_weights = ReadReals(point_weights, "point_weights");
@@ -135,7 +150,8 @@ InspectedWindow Solve(const InspectedWindow& inspected, const std::optional<doub
     }
   }
   if (max_iterations < 1) throw DataError("max_iterations: must be at least 1");
-  const SolverKind kind = With(inspected.config(), "solver.kind", solver).odometry.solver.kind;
+  const SolverKind kind =
+      With(inspected.config(), "solver", "solver.kind", solver).odometry.solver.kind;
   try {
     const py::gil_scoped_release release;
     return inspected.Solve(reweighing, kind, max_iterations);

@@ -29,6 +29,14 @@ std::string WithoutDashes(const std::string& message) {
   return message.compare(0, 2, "--") == 0 ? message.substr(2) : message;
 }
 
+/// The flag of the commands is an argument here.
+std::string WithArguments(std::string message) {
+  const std::string flag = "add --overwrite";
+  const std::size_t at = message.find(flag);
+  return at == std::string::npos ? message
+                                 : message.replace(at, flag.size(), "pass overwrite=True");
+}
+
 // The signature is pybind11's.
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
 void Translate(std::exception_ptr thrown) {
@@ -41,7 +49,7 @@ void Translate(std::exception_ptr thrown) {
   } catch (const DataError& error) {
     Raise("InputError", error.what());
   } catch (const OutputError& error) {
-    Raise("OutputError", error.what());
+    Raise("OutputError", WithArguments(error.what()));
   } catch (const EvaluationError& error) {
     Raise("EvaluationError", error.what());
   } catch (const UsageError& error) {

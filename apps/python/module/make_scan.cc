@@ -69,6 +69,7 @@ void SetTimes(const ScanArrays& arrays, LidarScan* scan) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i].t_ns += OffsetNs(times_s[i], points[i], i);
     }
+    RequireFineSeconds(arrays.times_s, "times_s", " or times_ns");
   } else if (!arrays.times_ns.is_none()) {
     const std::vector<std::int64_t> times_ns = ReadIntegers(arrays.times_ns, "times_ns");
     RequireLength(times_ns.size(), points.size(), "times_ns");

@@ -61,6 +61,7 @@ template <typename Callback>
 void OdometrySession::Call(const Callback& callback) {
   const py::gil_scoped_acquire acquire;
   if (thrown_by_callback_) return;
+  const Exclusive::CallingBack calling_back(&exclusive_);
   try {
     callback();
   } catch (...) {
@@ -110,6 +111,7 @@ void OdometrySession::Add(const LidarScan& scan) {
   first_stamp_ns_ = scans_ == 0 ? scan.stamp_ns : std::min(first_stamp_ns_, scan.stamp_ns);
   last_stamp_ns_ = scans_ == 0 ? scan.stamp_ns : std::max(last_stamp_ns_, scan.stamp_ns);
   ++scans_;
+  if (ExpectsTimes(scan.lidar_id)) sweeps_.Note(scan);
   Compute([&] { odometry_.AddScan(scan); });
   Rethrow();
 }
@@ -121,6 +123,7 @@ void OdometrySession::Finish() {
   // They may hold what holds this object, which would keep both for ever.
   request_.on_window = request_.on_solved = request_.on_pose = py::none();
   Rethrow();
+  if (scans_ == 0) throw DataError("no scan was added before finish()");
   const trajlo::PointCounts counts = odometry_.point_counts();
   if (!odometry_.trajectory().empty() && counts.Kept() > 0) return;
   throw DataError("none of the " + std::to_string(counts.received) +
@@ -129,17 +132,22 @@ void OdometrySession::Finish() {
 }
 
 const Odometry& OdometrySession::odometry() const {
-  exclusive_.RequireReadable();
+  exclusive_.AwaitReadable();
   return odometry_;
 }
 
+FlaggedTrajectory OdometrySession::Poses() const {
+  const PoseFlags flags(odometry().trajectory().poses(), odometry_.lost_at_ns());
+  return FlaggedTrajectory(odometry_.trajectory(), flags);
+}
+
 py::dict OdometrySession::Windows() const {
-  exclusive_.RequireReadable();
+  exclusive_.AwaitReadable();
   return WindowTable(windows_);
 }
 
 py::array_t<double> OdometrySession::Covariances() const {
-  exclusive_.RequireReadable();
+  exclusive_.AwaitReadable();
   if (!request_.covariance) {
     throw StateError("the covariances were not asked for: Odometry(..., covariance=True)");
   }

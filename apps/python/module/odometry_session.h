@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "apps/python/module/exclusive.h"
+#include "apps/python/module/flagged_trajectory.h"
+#include "apps/python/module/sweep_watch.h"
 #include "core/config/config.h"
 #include "core/odometry/odometry.h"
 
@@ -43,8 +45,10 @@ class OdometrySession {
     return config_.input.use_point_times.Of(static_cast<std::size_t>(lidar < 0 ? 0 : lidar));
   }
   bool is_finished() const { return is_finished_; }
-  /// These throw StateError while another thread computes.
+  /// These wait while another thread computes, unless that is in a callback.
   const Odometry& odometry() const;
+  /// Its flags are those of flags.csv.
+  FlaggedTrajectory Poses() const;
   py::dict Windows() const;
   py::array_t<double> Covariances() const;
   py::array_t<double> MapPoints() const;
@@ -54,6 +58,8 @@ class OdometrySession {
   /// Sentences about odd stamps and doubtful poses, and about a part of the input that is missing.
   std::vector<std::string> Remarks() const;
   std::string Shortcomings() const;
+  /// A sentence about times of points that do not fit the stamps, once; empty if there is none.
+  std::string TakeDoubtOfTimes(bool at_end) { return sweeps_.TakeDoubt(at_end); }
 
  private:
   void RequireOpen() const;
@@ -76,6 +82,7 @@ class OdometrySession {
   int newest_lidar_ = -1;                                ///< The largest number so far.
   std::int64_t first_stamp_ns_ = 0, last_stamp_ns_ = 0;  ///< The earliest and the latest so far.
   std::int64_t scans_ = 0;
+  SweepWatch sweeps_;
   Odometry odometry_;
 };
 

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: MIT
+import csv
+import decimal
 import json
 import os
+from pathlib import Path
 import warnings
-from typing import Any, Dict, Optional, Union
+from typing import Any, Dict, List, Optional, Union
+
+import numpy
 
 from . import _trajlo
 from ._trajlo import Trajectory
@@ -18,12 +23,26 @@ def read_trajectory(path: Union[str, os.PathLike], *, format: str = "auto",
     format  auto, tum, kitti or euroc
     times   a file of stamps, one for each line of a KITTI file
 
-    Of several poses with the same stamp the first is taken. Raises InputError.
+    Of several poses with the same stamp the first is taken. Its `flags` are those of the flags.csv
+    that trajlo_run wrote beside it, and None where there is none of these times. Raises InputError.
     """
     poses = _trajlo.Poses.from_file(path, format, times, "first", "interpolate")
     for text in poses.warnings:
         warnings.warn(text, TrajloWarning, stacklevel=2)
-    return poses.trajectory()
+    trajectory = poses.trajectory()
+    flags = _flags_beside(path, trajectory.times_ns)
+    return trajectory if flags is None else poses.trajectory(flags)
+
+
+def _flags_beside(path: Union[str, os.PathLike], times_ns: numpy.ndarray) -> Optional[List[int]]:
+    """The column of flags.csv in the folder of a trajectory, if it is of these poses."""
+    try:
+        with (Path(os.fsdecode(path)).parent / "flags.csv").open(newline="") as file:
+            rows = [(row["t_s"], int(row["flags"])) for row in csv.DictReader(file)]
+        found_ns = [int(decimal.Decimal(t_s).scaleb(9)) for t_s, _ in rows]
+    except (OSError, ValueError, TypeError, KeyError, ArithmeticError, csv.Error):
+        return None  # Another file of that name, or none.
+    return [bits for _, bits in rows] if found_ns == times_ns.tolist() else None
 
 
 def evaluate(estimate: Source, truth: Source, *,

@@ -32,8 +32,10 @@ class Odometry:
                 (6, 6) of its right perturbation [rho; theta], m², m rad, rad²
     covariance  keep these covariances
 
-    Computing releases the GIL. An exception of a callback is raised by the call that it
-    interrupts, after the scan has been processed. Raises ConfigError.
+    Computing releases the GIL. Another thread that reads meanwhile waits until that call has
+    returned, or calls a callback; one that adds a scan gets a StateError. An exception of a
+    callback is raised by the call that it interrupts, after the scan has been processed. An
+    odometry cannot be pickled or copied; what it gives can. Raises ConfigError.
     """
 
     def __init__(self, options: Optional[Options] = None, *,
@@ -54,7 +56,8 @@ class Odometry:
 
         Raises InputError for arrays that do not fit, ConfigError for a LiDAR that
         sensor.T_body_lidar does not place, StateError after finish(). Warns with LostWarning, and
-        with TrajloWarning about arrays without times, unless input.point_time is none.
+        with TrajloWarning about arrays without times, and about times of another unit: of sweeps
+        much shorter or longer than the time between stamps; unless input.point_time is none.
         """
         if not isinstance(scan, Scan):
             if stamp_ns is None:
@@ -66,16 +69,18 @@ class Odometry:
                   and intensities is None and lidar == 0):
             raise TypeError("a Scan has its own times, stamp, intensities and LiDAR")
         self._session.add(scan)
+        self._warn_about_times(at_end=False)
         self._warn_if_lost()
 
     def finish(self) -> None:
         """Processes what is left; all poses are final then, and no more scans are taken.
 
-        Raises InputError if no point could be used. Warns with LostWarning, with
+        Raises InputError if no scan was added, or no point could be used. Warns with LostWarning, with
         PartialInputWarning if much was dropped, and with TrajloWarning about odd stamps, and about
         poses that the points do not hold, as trajlo_run does; `windows` has their flags.
         """
         self._session.finish()
+        self._warn_about_times(at_end=True)
         self._warn_if_lost()
         for remark in self._session.remarks():
             warnings.warn(remark, TrajloWarning, stacklevel=2)
@@ -92,6 +97,11 @@ class Odometry:
                       "others blur with every turn (the option input.point_time=none says that "
                       "they are corrected)", TrajloWarning, stacklevel=3)
 
+    def _warn_about_times(self, at_end: bool) -> None:
+        doubt = self._session.take_doubt_of_times(at_end)
+        if doubt:
+            warnings.warn(doubt, TrajloWarning, stacklevel=3)
+
     def _warn_if_lost(self) -> None:
         t_ns = self._session.lost_at_ns()
         if t_ns is None or self._told_lost:
@@ -100,6 +110,10 @@ class Odometry:
         seconds = f"{t_ns // 10**9}.{t_ns % 10**9:09d}"
         warnings.warn(f"the estimator got lost at {seconds} s; poses from there on are not to be "
                       "trusted (windows shows what happened)", LostWarning, stacklevel=3)
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        raise TypeError("an Odometry cannot be pickled or copied: it is a computation; its "
+                        "trajectory, windows, map and covariances can")
 
     @property
     def trajectory(self) -> Trajectory:
