@@ -28,9 +28,14 @@ inline Eigen::MatrixXd TangentJacobian(const ceres::CostFunction& factor,
          Se3PlusJacobian(poses[block]);
 }
 
-/// Both null forms of the Jacobian call must work and give the same residuals.
+/// What is the same whether Jacobians are asked for or not. Factors whose residuals are a root of
+/// normal equations need not take that root for a cost alone.
+enum class NullForms { kGiveTheResiduals, kGiveTheCost };
+
+/// Both null forms of the Jacobian call must work: no Jacobians at all, and those of one block.
 inline void ExpectNullJacobianFormsWork(const ceres::CostFunction& factor,
-                                        const std::vector<SE3>& poses) {
+                                        const std::vector<SE3>& poses,
+                                        NullForms forms = NullForms::kGiveTheResiduals) {
   std::vector<const double*> parameters;
   for (const SE3& pose : poses) parameters.push_back(pose.data());
   Eigen::VectorXd none(factor.num_residuals()), some(factor.num_residuals());
@@ -41,6 +46,8 @@ inline void ExpectNullJacobianFormsWork(const ceres::CostFunction& factor,
     jacobians[wanted] = storage.data();
     EXPECT_TRUE(factor.Evaluate(parameters.data(), some.data(), jacobians.data()));
     EXPECT_NEAR(none.norm(), some.norm(), 1e-9 * (1.0 + none.norm()));
+    if (forms == NullForms::kGiveTheCost) continue;
+    EXPECT_LT((none - some).norm(), 1e-9 * (1.0 + none.norm()));
   }
 }
 
