@@ -119,7 +119,7 @@ or is above both --diverged_percent=P (10) percent of the path and 0.5 m, or is 
 (0: no such rule). It is incomplete if it covers less than --min_completeness=SHARE (0.5) of the
 poses of the truth. A pose is covered if it lies between two poses of the estimate that are at most
 1 s apart. A ? marks absolute rotation errors that are mostly a turn which the alignment leaves
-open, as positions on a line fix no rotation about it: --alignment=origin, or relative errors, tell.
+open, as positions on a line fix no rotation about it: use --alignment=origin, or relative errors.
 
 More flags: --quiet (print warnings and errors only), -h, --help, --version
 
