@@ -108,7 +108,8 @@ ExitCode RunGuarded(const Command& command, int argc, char** argv) {
     const ExitCode code = Run(command, argc, argv);
     const bool is_said = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (code != ExitCode::kOk || is_said || NobodyReads()) return code;
-    return Fail(command, ExitCode::kOutputNotWritable, "the output could not be written completely");
+    return Fail(command, ExitCode::kOutputNotWritable,
+                "the output could not be written completely");
   } catch (const UsageError& error) {
     return Fail(command, ExitCode::kUsage, error.what());
   } catch (const ConfigError& error) {

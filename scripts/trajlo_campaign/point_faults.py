@@ -29,7 +29,7 @@ def edit_all(recording, scans, change):
 
 
 def covered(recording, rng):
-    """Something hangs before the LiDAR, at 0.2 to 1.5 m."""
+    """Something hangs in front of the LiDAR, at 0.2 to 1.5 m."""
     scans, distance = stretch(recording, rng, 30), float(rng.uniform(0.2, 1.5))
 
     def cover(points):
