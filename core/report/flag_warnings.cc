@@ -36,10 +36,11 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
 
   const FlaggedPoses gap = total("gap");
   if (gap.control_poses > 0) {
-    warnings.push_back("nothing was measured for " + SecondsText(gap.seconds, all_s) + " in " +
+    warnings.push_back("for " + SecondsText(gap.seconds, all_s) + " in " +
                        std::to_string(gap.control_poses) +
                        (gap.control_poses == 1 ? " stretch" : " stretches") +
-                       "; the motion in between is unknown (flag gap in flags.csv)");
+                       " nothing was measured, or the place was not found; the motion in between "
+                       "is unknown (flag gap in flags.csv)");
   }
   // Of a recording without a window the message says more.
   if (!summary.too_short) {

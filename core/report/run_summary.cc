@@ -15,6 +15,9 @@ constexpr double kSizeableShare = 0.05;
 /// What no point holds for this long may be metres off: the calmest motion that the motion prior
 /// assumes (0.5 m²/s³) strays by 4.6 m.
 constexpr double kLongOpen_s = 5.0;
+/// And if it does so for more than this share of the time, however short each time is: people who
+/// walk ahead seem to hold a corridor lengthways now and then.
+constexpr double kOpenShare = 0.5;
 /// Who swings on a rope, and is found each time, is in doubt for up to a fifth of the time; who
 /// follows a facade metres off, for a third.
 constexpr double kDoubtfulShare = 0.25;
@@ -167,7 +170,8 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
   const double unmeasured_s = flags.totals().at("gap").seconds;
   if (unmeasured_s > kSizeableShare * flags.seconds()) {
     parts->push_back(
-        FormatText("nothing was measured for %.2f of %.2f s", unmeasured_s, flags.seconds()));
+        FormatText("for %.2f of %.2f s nothing was measured, or the place was not found",
+                   unmeasured_s, flags.seconds()));
   }
   if (points.sight_lines.AreCrossed() && path_length_m < kStanding_m_s * DataSeconds()) {
     parts->push_back(
@@ -187,6 +191,11 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
         FormatText("for %.2f s on end the points left a direction open (flag degenerate)",
                    open.longest_s) +
         ": nothing tells how the body moved along or about it");
+  } else if (open.seconds > kOpenShare * flags.seconds()) {
+    parts->push_back(FormatText(
+        "for %.2f of %.2f s the points left a direction open (flag degenerate): nothing tells how "
+        "the body moved along or about it",
+        open.seconds, flags.seconds()));
   } else if (jump.seconds > kDoubtfulShare * flags.seconds()) {
     parts->push_back(
         FormatText("for %.2f of %.2f s poses jump further than a body can move, or have been "

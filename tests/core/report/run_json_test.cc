@@ -198,6 +198,20 @@ TEST(RunSummary, SaysThatADirectionWasOpenForLong) {
       "the body moved along or about it");
 }
 
+TEST(RunSummary, SaysThatADirectionWasOpenForMostOfTheTime) {
+  std::vector<ControlPose> poses(101);
+  for (int i = 0; i <= 100; ++i) poses[i].t_ns = i * 100'000'000LL;
+  for (int i = 0; i < 50; ++i) poses[2 * i + 1].flags = kFlagDegenerate;
+  RunSummary s;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.Shortcomings(), "");  // Half of it.
+  poses[2].flags = kFlagDegenerate;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.Shortcomings(),
+            "for 5.10 of 10.00 s the points left a direction open (flag degenerate): nothing tells "
+            "how the body moved along or about it");
+}
+
 TEST(RunSummary, SaysThatPosesWereInDoubtForAQuarterOfTheTime) {
   std::vector<ControlPose> poses(101);
   for (int i = 0; i <= 100; ++i) poses[i].t_ns = i * 100'000'000LL;
@@ -221,7 +235,8 @@ TEST(RunSummary, SaysThatNothingWasMeasuredForLong) {
   EXPECT_EQ(s.Shortcomings(), "");
   poses[2].t_ns = 10010 * kMillisecond;
   s.flags = PoseFlags(poses, std::nullopt);
-  EXPECT_EQ(s.Shortcomings(), "nothing was measured for 0.51 of 10.01 s");
+  EXPECT_EQ(s.Shortcomings(),
+            "for 0.51 of 10.01 s nothing was measured, or the place was not found");
 }
 
 TEST(RunSummary, CountsOddStampsByReason) {
