@@ -149,8 +149,8 @@ void AlignPairs(const AlignmentOptions& options, Evaluation* evaluation) {
   for (PosePair& pair : evaluation->pairs) pair.estimate = evaluation->alignment * pair.estimate;
 }
 
-void DoubtRotations(Evaluation* evaluation) {
-  RotationDoubt doubt = JudgeRotations(evaluation->pairs, evaluation->alignment);
+void DoubtRotations(TrajectoryFormat truth_format, Evaluation* evaluation) {
+  RotationDoubt doubt = JudgeRotations(evaluation->pairs, evaluation->alignment, truth_format);
   evaluation->rotation_determined = doubt.determined;
   for (std::string& warning : doubt.warnings) Warn(std::move(warning), evaluation);
 }
@@ -171,7 +171,9 @@ void DoubtTruth(const TimedPoses& estimate, const TimedPoses& truth,
   if (estimate.HasStamps() && truth.HasStamps()) {
     WarnOfOtherCauses(estimate, truth, options.association, evaluation);
   }
-  if (evaluation->has_orientation && options.doubt_rotations) DoubtRotations(evaluation);
+  if (evaluation->has_orientation && options.doubt_rotations) {
+    DoubtRotations(truth.format, evaluation);
+  }
 }
 
 }  // namespace

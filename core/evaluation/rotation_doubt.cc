@@ -3,6 +3,7 @@
 
 #include <Eigen/SVD>
 #include <cmath>
+#include <optional>
 
 #include "core/evaluation/pose_errors.h"
 #include "core/io/format_text.h"
@@ -19,13 +20,13 @@ constexpr double kOpenSigmas = 3.0;
 // What is known no better is not known.
 constexpr double kNoRotation_deg = 60.0;
 // A smaller turn misleads nobody.
-constexpr double kNoticedDeg = 0.1;
+constexpr double kNoticed_deg = 0.1;
 // A turn is constant if what is left without it is smaller by this.
 constexpr double kConstantRatio = 10.0;
 // No frame is forgotten for less. A mounting that is off by as much is a matter of calibration.
-constexpr double kFrameDeg = 2.0;
+constexpr double kFrame_deg = 2.0;
 // A flat path that is mirrored is one that is turned over.
-constexpr double kMirroredDeg = 150.0;
+constexpr double kMirrored_deg = 150.0;
 // The other order of a quaternion is meant if rotations agree better by this.
 constexpr double kOrderRatio = 4.0;
 
@@ -66,11 +67,26 @@ std::vector<Matrix3d> Turns(const std::vector<PosePair>& pairs, bool in_world) {
   return turns;
 }
 
-/// The pairs as they were had the truth's file meant "qw qx qy qz".
-std::vector<PosePair> WithScalarFirst(std::vector<PosePair> pairs) {
+/// Where the truth's file would have w if it kept to its format, and where a file that does not
+/// has it, with the order that is right. A KITTI file has no quaternions.
+struct ScalarPlace {
+  const char* other;
+  const char* mend;
+};
+
+std::optional<ScalarPlace> PlaceOfScalar(TrajectoryFormat format) {
+  if (format == TrajectoryFormat::kKitti) return {};
+  if (format == TrajectoryFormat::kEuroc) return ScalarPlace{"last", "EuRoC's csv has qw qx qy qz"};
+  return ScalarPlace{"first", "trajectories need qx qy qz qw"};
+}
+
+/// The pairs as they were had the truth's file meant the other order.
+std::vector<PosePair> WithScalarMoved(std::vector<PosePair> pairs, TrajectoryFormat format) {
   for (PosePair& pair : pairs) {
     const Eigen::Quaterniond q(pair.truth.linear());
-    pair.truth.linear() = Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()).matrix();
+    const bool is_first = format == TrajectoryFormat::kEuroc;
+    pair.truth.linear() = is_first ? Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()).matrix()
+                                   : Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()).matrix();
   }
   return pairs;
 }
@@ -87,22 +103,25 @@ double OpenPart(const Vector3d& turn_rad, const Alignment& alignment) {
 
 }  // namespace
 
-RotationDoubt JudgeRotations(const std::vector<PosePair>& aligned, const Alignment& alignment) {
+RotationDoubt JudgeRotations(const std::vector<PosePair>& aligned, const Alignment& alignment,
+                             TrajectoryFormat truth_format) {
   RotationDoubt doubt;
   const Turn in_world = TurnOf(Turns(aligned, true));
   if (!std::isfinite(in_world.rms_deg)) return doubt;
-  const Turn scalar_first = TurnOf(Turns(WithScalarFirst(aligned), true));
-  if (kOrderRatio * scalar_first.rest_deg < in_world.rest_deg) {
-    doubt.warnings.push_back(FormatText(
-        "the rotations of the ground truth seem to have w first (without a constant turn, they "
-        "differ from the estimate's by %.3g deg then, by %.3g deg as they are): trajectories need "
-        "qx qy qz qw",
-        scalar_first.rest_deg, in_world.rest_deg));
-    return doubt;
+  const std::optional<ScalarPlace> scalar = PlaceOfScalar(truth_format);
+  if (scalar) {
+    const Turn moved = TurnOf(Turns(WithScalarMoved(aligned, truth_format), true));
+    if (kOrderRatio * moved.rest_deg < in_world.rest_deg) {
+      doubt.warnings.push_back(FormatText(
+          "the rotations of the ground truth seem to have w %s (without a constant turn, they "
+          "differ from the estimate's by %.3g deg then, by %.3g deg as they are): %s",
+          scalar->other, moved.rest_deg, in_world.rest_deg, scalar->mend));
+      return doubt;
+    }
   }
   const double open_deg = kDegrees * OpenPart(in_world.mean_rad, alignment);
   const double sigma_deg = RotationSigmaDeg(alignment).value_or(0.0);
-  if (open_deg > kNoticedDeg && 2.0 * std::pow(open_deg, 2) > std::pow(in_world.rms_deg, 2)) {
+  if (open_deg > kNoticed_deg && 2.0 * std::pow(open_deg, 2) > std::pow(in_world.rms_deg, 2)) {
     doubt.determined = false;
     doubt.warnings.push_back(FormatText(
         "ATE [deg] says little: it is mostly one turn of %.3g deg of the whole estimate, and the "
@@ -119,16 +138,16 @@ RotationDoubt JudgeRotations(const std::vector<PosePair>& aligned, const Alignme
   const Turn in_body = TurnOf(Turns(aligned, false));
   const double constant_deg = kDegrees * in_body.mean_rad.norm();
   if (by_positions && constant_deg > kConstantRatio * in_body.rest_deg &&
-      constant_deg > kOpenSigmas * sigma_deg && constant_deg > kFrameDeg) {
+      constant_deg > kOpenSigmas * sigma_deg && constant_deg > kFrame_deg) {
     doubt.warnings.push_back(FormatText(
         "ATE [deg] is the same turn of %.3g deg at every pose, to within %.2g deg: the ground "
-        "truth may be that of another frame on the body (--T_body_truth), or have quaternions with "
-        "w first%s",
+        "truth may be that of another frame on the body (--T_body_truth)%s%s",
         constant_deg, in_body.rest_deg,
-        constant_deg > kMirroredDeg
+        scalar ? FormatText(", or have quaternions with w %s", scalar->other).c_str() : "",
+        constant_deg > kMirrored_deg
             ? ", or left-handed axes: a flat path in a mirror is the path turned over"
             : ""));
-  } else if (by_positions && in_world.rms_deg > kMirroredDeg) {
+  } else if (by_positions && in_world.rms_deg > kMirrored_deg) {
     doubt.warnings.push_back(FormatText(
         "positions fit where the attitudes differ by nearly half a turn (%.3g deg): the ground "
         "truth may have left-handed axes, since a flat path in a mirror is the path turned over",

@@ -6,6 +6,7 @@
 
 #include "core/evaluation/alignment.h"
 #include "core/evaluation/association.h"
+#include "core/io/trajectory_file.h"
 
 namespace trajlo {
 
@@ -21,7 +22,8 @@ struct RotationDoubt {
 /// come. So a constant turn of the attitudes within three of `Alignment::rotation_sigma_rad` says
 /// nothing about them, and where it is the most of their error, nor does that.
 /// A constant turn that the alignment does fix is one between the two frames on the body, or a
-/// truth whose quaternions have w first. `aligned` needs orientation.
-RotationDoubt JudgeRotations(const std::vector<PosePair>& aligned, const Alignment& alignment);
+/// truth whose quaternions have w where `truth_format` does not. `aligned` needs orientation.
+RotationDoubt JudgeRotations(const std::vector<PosePair>& aligned, const Alignment& alignment,
+                             TrajectoryFormat truth_format);
 
 }  // namespace trajlo

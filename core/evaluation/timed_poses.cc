@@ -9,6 +9,7 @@ namespace trajlo {
 TimedPoses OrderByTime(const TrajectoryFile& file, const std::string& name,
                        RepeatedStamps repeated_stamps, std::vector<std::string>* warnings) {
   TimedPoses poses;
+  poses.format = file.format;
   if (file.t_ns.empty()) {
     poses.T_world_body = file.T_world_body;
     return poses;

@@ -16,6 +16,8 @@ struct TimedPoses {
   /// Not decreasing, one for each pose; empty if nothing is known about the times.
   std::vector<std::int64_t> t_ns;
   std::vector<Eigen::Affine3d> T_world_body;
+  /// Of the file that they come from; kAuto if they come from none.
+  TrajectoryFormat format = TrajectoryFormat::kAuto;
 
   std::size_t size() const { return T_world_body.size(); }
   bool HasStamps() const { return !t_ns.empty(); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/io/ascii_table.h"
 #include "core/io/errors.h"
 #include "core/io/finite_pose.h"
 #include "core/io/format_text.h"
@@ -45,6 +46,16 @@ void CheckHeading(const std::filesystem::path& path, std::string_view heading) {
                    "y z qx qy qz qw' with stamps in seconds and blanks between the columns.");
 }
 
+/// A comment before the first row is a heading, too, as EuRoC's own files have it.
+void CheckLeadingComments(const std::filesystem::path& path, std::string_view text) {
+  for (std::string_view line; TakeLine(&text, &line);) {
+    const std::size_t begin = line.find_first_not_of(" \t\r\xEF\xBB\xBF");
+    if (begin == std::string_view::npos) continue;
+    if (line[begin] != '#') return;
+    CheckHeading(path, line.substr(begin + 1));
+  }
+}
+
 /// No truth has poses as often as this. Stamps in seconds, ms or us give less if taken as ns.
 constexpr double kShortestPeriod_ns = 2e5;
 
@@ -68,6 +79,7 @@ void CheckStampUnit(const std::filesystem::path& path, const std::vector<Stamped
 
 std::vector<StampedPose> ParseEurocCsv(const std::filesystem::path& path, std::string_view text,
                                        std::vector<std::string>* warnings) {
+  CheckLeadingComments(path, text);
   std::vector<StampedPose> poses;
   MeaningfulLines lines(text);
   bool first = true;

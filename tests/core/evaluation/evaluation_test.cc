@@ -147,6 +147,18 @@ TEST(Evaluation, QuaternionsWithTheScalarFirstAreSuspected) {
               ::testing::ElementsAre(HasSubstr("w first")));
 }
 
+TEST(Evaluation, OfEurocsFormatQuaternionsWithTheScalarLastAreSuspected) {
+  TimedPoses truth = SmoothPoses(0.0, 0.05, 400);
+  truth.format = TrajectoryFormat::kEuroc;
+  for (Eigen::Affine3d& T : truth.T_world_body) {
+    const Eigen::Quaterniond q(T.linear());
+    T.linear() = Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()).matrix();  // x y z w as w x y z.
+  }
+  EXPECT_THAT(Evaluate(SmoothPoses(1.0, 0.1, 100), truth, {}).warnings,
+              ::testing::ElementsAre(::testing::AllOf(HasSubstr("seem to have w last"),
+                                                      HasSubstr("EuRoC's csv has qw qx qy qz"))));
+}
+
 TEST(Evaluation, AnotherUnitOfTheTruthIsSuspected) {
   TimedPoses truth = SmoothPoses(0.0, 0.05, 400);
   for (Eigen::Affine3d& T : truth.T_world_body) T.translation() *= 1000.0;

@@ -92,12 +92,19 @@ TEST_F(TrajectoryFileTest, StampsInMillisecondsAreRefused) {
 }
 
 TEST_F(TrajectoryFileTest, AHeadingWithTheScalarLastIsNotReadAsEurocs) {
-  EXPECT_THAT(ErrorOf("timestamp,tx,ty,tz,qx,qy,qz,qw\n1700000000000000000,1,2,3,0,0,0,1\n"),
-              ::testing::AllOf(HasSubstr("has w last"), HasSubstr("TUM's format")));
+  for (const char* heading :
+       {"timestamp,tx,ty,tz,qx,qy,qz,qw", "#timestamp [ns],p_x,p_y,p_z,q_x,q_y,q_z,q_w",
+        "\xEF\xBB\xBF# made by us, today\n\n # t,x,y,z,qx,qy,qz,qw"}) {
+    EXPECT_THAT(ErrorOf(std::string(heading) + "\n1700000000000000000,1,2,3,0,0,0,1\n"),
+                ::testing::AllOf(HasSubstr("has w last"), HasSubstr("TUM's format")))
+        << heading;
+  }
   for (const char* heading : {"timestamp,x,y,z,qw,qx,qy,qz",
                               "t,p_x [m],p_y [m],p_z [m],q_w [],q_x "
                               "[],q_y [],q_z [],v_x,w_x",
-                              "a,b,c,d,e,f,g,h", "t,"}) {
+                              "a,b,c,d,e,f,g,h", "t,",
+                              "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], "
+                              "q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1]"}) {
     EXPECT_EQ(Read(std::string(heading) + "\n5,1,2,3,1,0,0,0\n").t_ns.size(), 1u) << heading;
   }
 }
