@@ -28,6 +28,7 @@ constexpr char kCommand[] = "trajlo_convert";
 /// The poses of the excerpt; throws InputError if there are none.
 std::vector<StampedPose> WantedPoses(const ConvertRequest& request,
                                      const std::vector<StampedPose>& poses) {
+  if (request.recording.start_s == 0.0 && request.recording.duration_s == 0.0) return poses;
   const std::int64_t begin_ns = poses.front().t_ns + Nanoseconds(request.recording.start_s);
   const std::int64_t duration_ns = Nanoseconds(request.recording.duration_s);
   std::vector<StampedPose> wanted;
@@ -60,7 +61,8 @@ ExitCode WritePoses(const ConvertRequest& request) {
   if (!request.quiet) {
     std::printf("%s in %s\n", CountOf(wanted.size(), "pose").c_str(), request.output.c_str());
   }
-  const bool partial = extracted.report.damaged || extracted.unreadable > 0;
+  const bool partial =
+      extracted.report.damaged || extracted.unreadable + extracted.contradicted > 0;
   return partial ? ExitCode::kPartialInput : ExitCode::kOk;
 }
 

@@ -41,11 +41,13 @@ LineKind ParseLine(std::string_view line, std::size_t columns, StampedPose* pose
   if (!t_ns) return ParseNumber(stamp, &stamp_number) ? LineKind::kUnusable : LineKind::kMalformed;
 
   pose->t_ns = *t_ns;
+  pose->has_rotation = columns == 8;
   pose->T_world_body.t = Eigen::Vector3d(values[0], values[1], values[2]);
   pose->T_world_body.q = Eigen::Quaterniond(values[6], values[3], values[4], values[5]);
   if (!HasFiniteLength(pose->T_world_body)) return LineKind::kUnusable;
   if (pose->T_world_body.q.norm() < 1e-6) {
     pose->T_world_body.q.setIdentity();
+    pose->has_rotation = false;
     return LineKind::kWithoutRotation;
   }
   return LineKind::kPose;

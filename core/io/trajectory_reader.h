@@ -15,6 +15,8 @@ namespace trajlo {
 struct StampedPose {
   std::int64_t t_ns = 0;
   SE3 T_world_body;
+  /// False: a position alone, for whose rotation the identity stands.
+  bool has_rotation = true;
 };
 
 /// Reads a trajectory in TUM's format, poses in the order of the file, quaternions normalised.

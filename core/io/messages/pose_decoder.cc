@@ -47,7 +47,8 @@ std::optional<StampedPose> DecodePose(std::string_view type, Encoding encoding,
   }
   if (!reader.ok() || !HasFiniteLength(pose.T_world_body)) return {};
   // rospy's default, and so what a total station sends that knows no rotation.
-  if (pose.T_world_body.q.norm() < 1e-9) pose.T_world_body.q.setIdentity();
+  pose.has_rotation = layout->has_rotation && pose.T_world_body.q.norm() >= 1e-9;
+  if (!pose.has_rotation) pose.T_world_body.q.setIdentity();
   pose.T_world_body.q.normalize();
   return pose;
 }

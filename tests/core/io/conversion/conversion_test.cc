@@ -235,29 +235,6 @@ TEST(CopyBags, MendsABagWithoutItsEnd) {
   EXPECT_EQ(MessagesOf(folder / "mended.bag"), expected);
 }
 
-TEST(ExtractPoses, GivesThePosesOfATopic) {
-  const TempFolder folder;
-  WriteBag(folder / "a.bag", CloudLayout::kOuster, false);
-  const ExtractedPoses extracted = ExtractPoses(folder / "a.bag", "/truth");
-  ASSERT_EQ(extracted.poses.size(), 8u);
-  EXPECT_EQ(extracted.poses[3].t_ns, kStartNs + 4 * kPeriodNs);
-  EXPECT_EQ(extracted.poses[3].T_world_body.t.x(), 1.5);
-  EXPECT_EQ(extracted.unreadable, 0u);
-  try {
-    ExtractPoses(folder / "a.bag", "/points");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/truth (geometry_msgs/PoseStamped, 8 messages)"));
-  }
-}
-
-TEST(ExtractPoses, ReadsAFolderOfBagsInTheirOrder) {
-  const TempFolder folder;
-  WriteBag(folder / "part_10.bag", CloudLayout::kOuster, false);
-  WriteBag(folder / "part_9.bag", CloudLayout::kOuster, false);
-  EXPECT_EQ(ExtractPoses(folder.path(), "/truth").poses.size(), 16u);
-}
-
 TEST(BagsOf, AFolderOfBothKindsIsReadWholeInTheOrderOfTheNames) {
   const TempFolder folder;
   WriteBag(folder / "whole.bag", CloudLayout::kOuster, false);
