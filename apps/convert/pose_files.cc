@@ -55,6 +55,11 @@ bool IsTrajectoryFile(const fs::path& path) {
 ExitCode ConvertTrajectory(const ConvertRequest& request) {
   std::vector<std::string> warnings;
   const TrajectoryFile file = ReadTrajectory(request.input, TrajectoryFormat::kAuto, &warnings);
+  if (!file.has_rotations) {
+    warnings.push_back(request.input +
+                       ": has positions without rotations; the identity is written for each, and "
+                       "angles mean nothing");
+  }
   PrintWarnings("trajlo_convert", warnings);
   if (file.t_ns.empty()) {
     throw InputError(request.input, "has poses without stamps (KITTI's format)",

@@ -22,6 +22,7 @@ constexpr char kCommand[] = "trajlo_evaluate";
 struct NamedPoses {
   TimedPoses poses;
   TrajectorySummary summary;
+  bool has_rotations = true;
 };
 
 NamedPoses Read(const std::filesystem::path& path, TrajectoryFormat format,
@@ -38,6 +39,7 @@ NamedPoses Read(const std::filesystem::path& path, TrajectoryFormat format,
                        "There must be one stamp for each line.");
     }
   }
+  read.has_rotations = file.has_rotations;
   read.poses = OrderByTime(file, path.string(), request.repeated_stamps, warnings);
   read.summary.file = path.string();
   read.summary.poses = read.poses.size();
@@ -71,6 +73,10 @@ EstimateReport EvaluateOne(std::size_t index, const EvaluateRequest& request,
   try {
     const NamedPoses estimate = Read(path, request.estimate_format, request, warnings);
     report.trajectory = estimate.summary;
+    if (!estimate.has_rotations) {
+      warnings->push_back(path.string() +
+                          ": has positions without rotations, so its rotation errors say nothing");
+    }
     WarnOfRun(path, warnings);
     report.evaluation = Evaluate(estimate.poses, truth, request.options);
     for (const std::string& warning : report.evaluation->warnings) {
@@ -94,8 +100,10 @@ EvaluationReport Compare(const EvaluateRequest& request) {
       request.options.truth_orientation == TruthOrientation::kAuto) {
     report.warnings.push_back(
         request.truth.string() +
-        ": all rotations are exactly the identity, so they are taken as placeholders and no "
-        "rotation error is computed (--truth_orientation=use computes it)");
+        (truth.has_rotations
+             ? ": all rotations are exactly the identity, so they are taken as placeholders and no "
+               "rotation error is computed (--truth_orientation=use computes it)"
+             : ": has positions without rotations, so no rotation error is computed"));
   }
   const std::vector<std::string> file_names = FileNames(request.names);
   for (std::size_t i = 0; i < request.estimates.size(); ++i) {

@@ -12,6 +12,7 @@
 #include "core/io/kitti_poses.h"
 #include "core/io/meaningful_lines.h"
 #include "core/io/number_text.h"
+#include "core/io/random_access_file.h"
 #include "core/io/stamp_text.h"
 #include "core/io/trajectory_reader.h"
 #include "core/scans/nanoseconds.h"
@@ -79,6 +80,23 @@ void CheckStampUnit(const std::filesystem::path& path, std::string_view text) {
                    "TUM's format has stamps in seconds; these look like ns, us or ms.");
 }
 
+/// Bags hold ground truth, too, but are no trajectories. They can be large, so that only their
+/// first bytes are read.
+void RefuseBag(const std::filesystem::path& path) {
+  std::error_code error;
+  bool is_bag = std::filesystem::is_regular_file(path / "metadata.yaml", error);
+  if (std::filesystem::is_regular_file(path, error)) {
+    const FileBytes begin = RandomAccessFile(path).Read(0, 16);
+    for (const std::string_view magic : {"#ROSBAG V", "\x89MCAP", "SQLite format 3"}) {
+      is_bag = is_bag || begin.view().substr(0, magic.size()) == magic;
+    }
+  }
+  if (!is_bag) return;
+  throw InputError(path, "this is a bag, not a file of poses",
+                   "Take the poses of a topic out of it: trajlo_convert " + path.string() +
+                       " truth.tum --poses=TOPIC (trajlo_info lists the topics).");
+}
+
 void Condense(std::size_t from, std::vector<std::string>* warnings) {
   if (warnings->size() <= from + kWarningsPerFile) return;
   const std::size_t more = warnings->size() - from - kWarningsPerFile;
@@ -116,6 +134,7 @@ TrajectoryFile ReadTrajectory(const std::filesystem::path& path, TrajectoryForma
   if (std::filesystem::is_regular_file(path / "trajectory.tum", error)) {
     return ReadTrajectory(path / "trajectory.tum", format, warnings);
   }
+  RefuseBag(path);
   const FileBytes bytes = ReadFileBytes(path);
   const std::size_t earlier_warnings = warnings->size();
   TrajectoryFile file;
@@ -129,6 +148,8 @@ TrajectoryFile ReadTrajectory(const std::filesystem::path& path, TrajectoryForma
     CheckStampUnit(path, bytes.view());
     poses = ParseTum(path, bytes.view(), warnings);
   }
+  const auto has_rotation = [](const StampedPose& pose) { return pose.has_rotation; };
+  file.has_rotations = poses.empty() || std::any_of(poses.begin(), poses.end(), has_rotation);
   for (const StampedPose& pose : poses) {
     file.t_ns.push_back(pose.t_ns);
     file.T_world_body.emplace_back(Eigen::Translation3d(pose.T_world_body.t) * pose.T_world_body.q);

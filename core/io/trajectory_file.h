@@ -33,6 +33,8 @@ struct TrajectoryFile {
   /// established tools compute with them so; those of the other formats come from normalised
   /// quaternions.
   std::vector<Eigen::Affine3d> T_world_body;
+  /// False: positions alone, and the identity stands for every rotation.
+  bool has_rotations = true;
 };
 
 /// Reads a trajectory; kAuto tells the format by the first line that is no comment.
@@ -41,8 +43,8 @@ struct TrajectoryFile {
 /// zero quaternion are skipped and mentioned in `warnings`. Rotations of KITTI files that are off
 /// by more than 1e-4 are projected onto SO(3), with a warning.
 /// A folder that holds trajectory.tum, a result of trajlo_run, stands for that.
-/// Throws InputError, naming the line, for everything that cannot be understood, and for a file
-/// without poses.
+/// Throws InputError, naming the line, for everything that cannot be understood, for a file
+/// without poses, and for a bag, which trajlo_convert takes poses out of.
 TrajectoryFile ReadTrajectory(const std::filesystem::path& path, TrajectoryFormat format,
                               std::vector<std::string>* warnings);
 

@@ -65,6 +65,10 @@ TEST_F(TrajloConvert, ATrajectoryBecomesOneOfAnotherFormat) {
   const Outcome without_times = Convert({Path("truth.txt"), Path("again.tum")});
   EXPECT_EQ(without_times.exit_code, 2);
   EXPECT_THAT(without_times.err, HasSubstr("without stamps"));
+  WriteFile(Path("prism.tum"), "1 2 3 4\n2 3 4 5\n");
+  const Outcome prism = Convert({Path("prism.tum"), Path("turned.tum")});
+  EXPECT_EQ(prism.exit_code, 0);
+  EXPECT_THAT(prism.err, HasSubstr("positions without rotations"));
   EXPECT_EQ(Convert({Path("truth.csv"), Path("truth.tum")}).exit_code, 5);
   EXPECT_EQ(Convert({Path("truth.csv"), Path("truth.bag")}).exit_code, 1);
 }

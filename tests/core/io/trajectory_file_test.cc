@@ -151,12 +151,23 @@ TEST_F(TrajectoryFileTest, PositionsAloneHaveNoRotation) {
   EXPECT_EQ(prism.T_world_body[1].translation(), Eigen::Vector3d(7, 8, 9));
   EXPECT_TRUE(prism.T_world_body[1].linear().isIdentity(0.0));
   EXPECT_THAT(warnings_, IsEmpty());
+  EXPECT_FALSE(prism.has_rotations);
+  EXPECT_FALSE(Read("1 4 5 6 0 0 0 0\n").has_rotations);
+  EXPECT_TRUE(Read("1 4 5 6 0 0 0 1\n").has_rotations);
   EXPECT_THAT(ErrorOf("1 4 5 6\n2 7 8 9 0 0 0 1\n3 7 8 9\n"), HasSubstr("line 2"));
 }
 
 TEST_F(TrajectoryFileTest, AResultStandsForItsTrajectory) {
   folder_.Write("trajectory.tum", "1 0 0 0 0 0 0 1\n");
   EXPECT_EQ(ReadTrajectory(folder_.path(), TrajectoryFormat::kAuto, &warnings_).t_ns.size(), 1u);
+}
+
+TEST_F(TrajectoryFileTest, ABagIsToldFromATrajectory) {
+  for (const std::string& bag : {std::string("#ROSBAG V2.0\n"), std::string("\x89MCAP0\r\n"),
+                                 std::string("SQLite format 3\0", 16)}) {
+    EXPECT_THAT(ErrorOf(bag),
+                ::testing::AllOf(HasSubstr("this is a bag"), HasSubstr("truth.tum --poses=TOPIC")));
+  }
 }
 
 TEST_F(TrajectoryFileTest, ManyWarningsAreCondensed) {
