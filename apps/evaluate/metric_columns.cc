@@ -110,7 +110,8 @@ std::vector<MetricColumn> MainColumns(const EvaluationReport& report,
 
 std::string FormatValue(const std::optional<double>& value, int decimals) {
   if (!value) return "";
-  if (!std::isfinite(*value)) return "inf";
+  if (std::isnan(*value)) return "-";  // As the deviation of errors that are infinite.
+  if (std::isinf(*value)) return *value < 0.0 ? "-inf" : "inf";
   return FormatText(*value < 1e7 ? "%.*f" : "%.*e", decimals, *value);
 }
 

@@ -40,7 +40,7 @@ std::string CoveredDifferently(const EvaluationReport& report);
 /// in doubt, as it is printed; empty if there are fewer than two to choose from.
 std::string BestValue(const EvaluationReport& report, const MetricColumn& column);
 
-/// "0.023"; empty for nothing.
+/// "0.023"; empty for nothing, "-" for what is no number.
 std::string FormatValue(const std::optional<double>& value, int decimals);
 
 /// "1 m"

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "apps/evaluate/flag_values.h"
 #include "apps/evaluate/labels.h"
+#include "apps/evaluate/metric_columns.h"
 
 namespace trajlo {
 namespace {
@@ -24,6 +27,14 @@ TEST(Labels, AreWhatDiffersOfThePathsElse) {
 TEST(Labels, BecomeFileNames) {
   EXPECT_THAT(FileNames({"a/b c", "a_b_c", "../x", "größe"}),
               ElementsAre("a_b_c", "a_b_c_2", ".._x", "größe"));
+}
+
+TEST(FormatValue, NamesWhatIsNoNumber) {
+  EXPECT_EQ(FormatValue(0.0234, 3), "0.023");
+  EXPECT_EQ(FormatValue(std::nullopt, 3), "");
+  EXPECT_EQ(FormatValue(std::numeric_limits<double>::infinity(), 3), "inf");
+  EXPECT_EQ(FormatValue(-std::numeric_limits<double>::infinity(), 3), "-inf");
+  EXPECT_EQ(FormatValue(std::numeric_limits<double>::quiet_NaN(), 3), "-");
 }
 
 TEST(FlagValues, PiecesHaveAUnit) {
