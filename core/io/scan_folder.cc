@@ -9,6 +9,7 @@
 #include "core/io/format_text.h"
 #include "core/io/point_file.h"
 #include "core/io/scan_decoder.h"
+#include "core/io/scan_numbers.h"
 #include "core/io/stamp_text.h"
 #include "core/io/time_probe.h"
 #include "core/scans/nanoseconds.h"
@@ -29,9 +30,11 @@ ScanFolder::ScanFolder(const std::filesystem::path& path, const ScanFolderOption
   recorded_ns_ = FindRecordTimes(listing_);
   report_.scans_listed = listing_.files.size();
   if (!options_.remark.empty()) report_.warnings.push_back(path.string() + ": " + options_.remark);
-  report_.warnings.insert(report_.warnings.end(), stamps_.warnings.begin(), stamps_.warnings.end());
+  report_.scans_left_out = listing_.left_out;
+  Warn(listing_.warnings);
+  Warn(stamps_.warnings);
   const std::string doubt = DoubtOfStampUnit(TypicalPeriod(stamps_.t_ns));
-  if (!doubt.empty()) report_.warnings.push_back(stamps_.source + ": " + doubt);
+  if (!doubt.empty()) Warn({stamps_.source + ": " + doubt});
   Probe();
   if (stamps_.t_ns.empty() && !convention_.IsAbsolute()) SetRegularStamps();
   if (!has_assumed_stamps_ && options_.scan_period_s != ScanFolderOptions().scan_period_s) {
@@ -42,6 +45,10 @@ ScanFolder::ScanFolder(const std::filesystem::path& path, const ScanFolderOption
   }
   Describe(path);
   if (options_.read_ahead) StartNext({});
+}
+
+void ScanFolder::Warn(const std::vector<std::string>& warnings) {
+  report_.warnings.insert(report_.warnings.end(), warnings.begin(), warnings.end());
 }
 
 /// Decides the time convention from the first scans that tell something.
@@ -87,12 +94,21 @@ void ScanFolder::SetRegularStamps() {
   if (convention_.HasPointTimes() && std::abs(sweep_s - period_s) > 0.2 * period_s) {
     period_s = sweep_s;
   }
+  const MissingScans missing = FindMissingScans(listing_.files);
   stamps_.t_ns.resize(listing_.files.size());
   for (std::size_t i = 0; i < stamps_.t_ns.size(); ++i) {
-    stamps_.t_ns[i] = Nanoseconds(period_s * static_cast<double>(i));
+    stamps_.t_ns[i] = Nanoseconds(period_s * static_cast<double>(i + missing.before[i]));
   }
   stamps_.source =
       "none found, so a scan every " + Milliseconds(Nanoseconds(period_s)) + " from 0 s is assumed";
+  const std::string folder = listing_.folder.string() + ": ";
+  // Who gave the period knows it.
+  if (options_.scan_period_s == ScanFolderOptions().scan_period_s) {
+    Warn({folder + "stamps: " + stamps_.source + " (input.stamps_file, input.scan_period_s)"});
+  }
+  if (missing.finding.empty()) return;
+  stamps_.warnings.push_back(folder + missing.finding);
+  Warn(stamps_.warnings);
 }
 
 void ScanFolder::Describe(const std::filesystem::path& path) {

@@ -67,6 +67,7 @@ class ScanFolder : public ScanSource {
     std::string damage;
   };
 
+  void Warn(const std::vector<std::string>& warnings);
   void Probe();
   void SetRegularStamps();
   void Describe(const std::filesystem::path& path);

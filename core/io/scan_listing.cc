@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <system_error>
 
 #include "core/io/errors.h"
@@ -88,6 +89,35 @@ FolderContent Look(const fs::path& folder) {
   return content;
 }
 
+/// A map beside the scans has no number in its name; the scans once more have the same names.
+void NoteOtherEndings(const FolderContent& content, ScanListing* listing) {
+  std::set<std::string> known;
+  for (const fs::path& file : listing->files) known.insert(file.stem().string());
+  std::string first;
+  for (const auto& [extension, files] : content.scans_by_extension) {
+    if (extension == listing->extension) continue;
+    for (const fs::path& file : files) {
+      const std::string name = file.stem().string();
+      const bool has_number = std::any_of(name.begin(), name.end(), IsDigit);
+      if (!has_number || known.count(name) > 0) continue;
+      const std::string whole = file.filename().string();
+      if (listing->left_out++ == 0 || NaturalLess(whole, first)) first = whole;
+    }
+  }
+  const std::size_t others = content.ScanCount() - listing->files.size();
+  if (others == 0) return;
+  std::string sentence = "left out: " + CountOf(others, "point file") + " in " +
+                         listing->folder.string() + " that " + (others == 1 ? "does" : "do") +
+                         " not end in " + listing->extension;
+  if (listing->left_out > 0) {
+    sentence +=
+        "; " + CountOf(listing->left_out, "is a scan", "are scans") +
+        " that no other file has, the first " + first +
+        ". Scans must be of one format: convert them, or put them into folders of their own";
+  }
+  listing->warnings.push_back(sentence);
+}
+
 ScanListing MakeListing(const fs::path& folder, const FolderContent& content) {
   ScanListing listing;
   listing.folder = folder;
@@ -97,12 +127,7 @@ ScanListing MakeListing(const fs::path& folder, const FolderContent& content) {
       listing.extension = extension;
     }
   }
-  const std::size_t left_out = content.ScanCount() - listing.files.size();
-  if (left_out > 0) {
-    listing.notes.push_back("left out: " + CountOf(left_out, "point file") + " in " +
-                            folder.string() + " that " + (left_out == 1 ? "does" : "do") +
-                            " not end in " + listing.extension);
-  }
+  NoteOtherEndings(content, &listing);
   SortNaturally(&listing.files);
   return listing;
 }

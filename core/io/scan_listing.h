@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -15,13 +16,18 @@ struct ScanListing {
   std::string extension;
   /// In natural order: scan9 comes before scan10.
   std::vector<std::filesystem::path> files;
-  /// What was left out and why, to be printed.
+  /// What was left out that does not matter, and why, to be printed.
   std::vector<std::string> notes;
+  /// Point files that end otherwise and are left out.
+  std::vector<std::string> warnings;
+  /// How many of these are scans that are not in `files` in another form.
+  std::size_t left_out = 0;
 };
 
 /// Finds the scans of the recording `path`: in a subfolder with a well-known name (scans,
 /// velodyne, velodyne_points/data, ...), else in `path` itself, else in the only subfolder that
-/// holds scans. The most frequent extension wins. Throws InputError when there are none, or
+/// holds scans. The most frequent extension wins; of the others, a name with a number that no file
+/// of the listing has is that of a scan that is left out. Throws InputError when there are none, or
 /// when two subfolders are equally good.
 ScanListing ListScans(const std::filesystem::path& path);
 

@@ -20,6 +20,8 @@ struct ReadReport {
   std::size_t scans_damaged = 0;
   /// Nothing could be read.
   std::size_t scans_skipped = 0;
+  /// Not listed: files of another format in the folder of the scans.
+  std::size_t scans_left_out = 0;
   /// A part of the file is missing or broken, with an unknown number of scans in it.
   bool file_is_cut = false;
   std::size_t points_read = 0;
@@ -29,7 +31,9 @@ struct ReadReport {
   std::vector<std::string> warnings;
 
   /// True if the result rests on a part of the input only: exit code 3.
-  bool IsPartial() const { return file_is_cut || scans_damaged + scans_skipped > 0; }
+  bool IsPartial() const {
+    return file_is_cut || scans_damaged + scans_skipped + scans_left_out > 0;
+  }
 };
 
 /// A recording of one or several LiDARs, scan by scan.

@@ -34,6 +34,7 @@ Json InputJson(const RunSummary& s) {
             {"read", s.read.scans_read},
             {"damaged", s.read.scans_damaged},
             {"skipped", s.read.scans_skipped},
+            {"left_out", s.read.scans_left_out},
             {"reordered", s.times.reordered},
             {"retimed", s.times.retimed},
             {"time_assumed", s.times.assumed},

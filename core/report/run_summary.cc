@@ -101,6 +101,10 @@ void RunSummary::AddDamage(std::vector<std::string>* parts) const {
   if (read.scans_skipped > 0) {
     parts->push_back(CountOf(read.scans_skipped, "scan") + " could not be read at all");
   }
+  if (read.scans_left_out > 0) {
+    parts->push_back(CountOf(read.scans_left_out, "scan is", "scans are") +
+                     " left out, as the others are of another format");
+  }
   if (ShareWithWrongTimes() > kSizeableShare) {
     parts->push_back(std::to_string(std::lround(100.0 * ShareWithWrongTimes())) +
                      " % of the points were dropped because of their times (" +

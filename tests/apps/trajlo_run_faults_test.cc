@@ -54,6 +54,21 @@ TEST_F(TrajloRunTest, AnUnreadableFileIsThreeAndTheOthersAreUsed) {
   EXPECT_EQ(RunJson()["input"]["scans"]["read"], 11);
 }
 
+TEST_F(TrajloRunTest, ScansOfAnotherFormatAreThreeAndNamed) {
+  RoomRecording().Write(input());
+  fs::remove(temp_ / "in/timestamps.txt");
+  for (const int i : {10, 11}) {
+    const fs::path file = RoomRecording::File(input(), i);
+    fs::rename(file, fs::path(file).replace_extension(".ply"));
+  }
+  const Outcome outcome = Run();
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("2 scans are left out"));
+  EXPECT_THAT(RunJson()["warnings"].dump(),
+              AllOf(HasSubstr("the first 000010.ply"), HasSubstr("a scan every 100 ms")));
+  EXPECT_EQ(RunJson()["input"]["scans"]["left_out"], 2);
+}
+
 TEST_F(TrajloRunTest, AScanOfNansIsCountedAndBridged) {
   const RoomRecording room;
   room.Write(input());
@@ -111,14 +126,17 @@ TEST_F(TrajloRunTest, LessDataThanTellsOfASecondHasNoMedian) {
 TEST_F(TrajloRunTest, ScansWithoutTimesWarnUnlessTheyAreDeclaredMotionCorrected) {
   RoomRecording room;
   fs::create_directories(temp_ / "in/velodyne");
+  std::ofstream times(temp_ / "in/times.txt");
   for (int i = 0; i < room.scans; ++i) {
     std::vector<Eigen::Vector4f> points = room.Scan(i);
     for (Eigen::Vector4f& point : points) point[3] = 0.5F;  // Of a .bin: the intensity.
+    times << RoomRecording::kPeriod * i << "\n";
     const std::string name = "in/velodyne/" + std::to_string(100 + i) + ".bin";
     std::ofstream(temp_ / name, std::ios::binary)
         .write(reinterpret_cast<const char*>(points.data()),
                static_cast<std::streamsize>(points.size() * sizeof(points[0])));
   }
+  times.close();
   const Outcome silent = Run();
   EXPECT_EQ(silent.exit_code, 0) << silent.err;
   EXPECT_THAT(silent.err, AllOf(HasSubstr("points have no times of their own"),

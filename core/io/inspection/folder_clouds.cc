@@ -15,6 +15,8 @@ FolderClouds::FolderClouds(ScanListing listing, std::vector<std::int64_t> stamps
   topic.type = listing_.extension + " files";
   topic.messages = listing_.files.size();
   topics_.push_back(std::move(topic));
+  report_.warnings = listing_.warnings;
+  report_.damaged = listing_.left_out > 0;
 }
 
 bool FolderClouds::Next(CloudMessage* message) {

@@ -53,6 +53,7 @@ void MergedRecording::UpdateReport() {
     report_.scans_read += part.scans_read;
     report_.scans_damaged += part.scans_damaged;
     report_.scans_skipped += part.scans_skipped;
+    report_.scans_left_out += part.scans_left_out;
     report_.file_is_cut = report_.file_is_cut || part.file_is_cut;
     report_.points_read += part.points_read;
     report_.points_without_time += part.points_without_time;

@@ -88,6 +88,24 @@ TEST(ScanFolder, WithoutTimesEveryPointGetsTheStamp) {
   EXPECT_EQ(scans[3].stamp_ns, 300000000);
   EXPECT_FALSE(scans[3].has_point_times);
   EXPECT_EQ(scans[3].points[7].t_ns, 300000000);
+  EXPECT_THAT(recording.report().warnings, ::testing::Contains(HasSubstr("input.scan_period_s")));
+}
+
+TEST(ScanFolder, WithoutStampsMissingNumbersLeaveAGap) {
+  const TempFolder folder;
+  WriteRecording(folder, "numpy_kitti.bin", false);
+  std::filesystem::remove(folder.path() / "scans/000002.bin");
+  ScanFolderOptions options;
+  options.scan_period_s = 0.2;
+  ScanFolder recording(folder.path(), options);
+  const auto scans = ReadAll(&recording);
+  ASSERT_EQ(scans.size(), 4U);
+  EXPECT_EQ(scans[1].stamp_ns, 200000000);
+  EXPECT_EQ(scans[2].stamp_ns, 600000000);
+  EXPECT_THAT(recording.report().warnings, ::testing::Contains(HasSubstr("1 scan is missing")));
+  // Who gave the period needs not be told that one is assumed.
+  EXPECT_THAT(recording.report().warnings,
+              ::testing::Not(::testing::Contains(HasSubstr("is assumed"))));
 }
 
 TEST(ScanFolder, PointTimesCanBeSwitchedOff) {

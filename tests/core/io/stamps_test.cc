@@ -275,7 +275,20 @@ TEST(ScanListing, TheMostFrequentKindOfFileWins) {
   const ScanListing listing = ListScans(folder.path());
   EXPECT_EQ(listing.extension, ".pcd");
   EXPECT_EQ(listing.files.size(), 2U);
-  EXPECT_THAT(listing.notes, ElementsAre(HasSubstr("does not end in .pcd")));
+  EXPECT_THAT(listing.warnings, ElementsAre(HasSubstr("does not end in .pcd")));
+  EXPECT_EQ(listing.left_out, 0U);
+}
+
+TEST(ScanListing, ScansOfAnotherKindThatNoFileHasAreLeftOut) {
+  const TempFolder folder;
+  for (const char* name : {"1.pcd", "2.pcd", "3.pcd", "2.ply", "3.ply"}) folder.Write(name, "");
+  EXPECT_EQ(ListScans(folder.path()).left_out, 0U);
+  for (const char* name : {"4.pcd", "5.pcd", "10.ply", "9.bin"}) folder.Write(name, "");
+  const ScanListing listing = ListScans(folder.path());
+  EXPECT_EQ(listing.files.size(), 5U);
+  EXPECT_EQ(listing.left_out, 2U);
+  EXPECT_THAT(listing.warnings,
+              ElementsAre(HasSubstr("2 are scans that no other file has, the first 9.bin")));
 }
 
 TEST(ScanListing, MissingEmptyAndAmbiguousFoldersAreExplained) {
