@@ -61,22 +61,24 @@ ScanSequencer::ScanSequencer(double max_lag_s, HandOn hand_on)
 
 void ScanSequencer::Add(const LidarScan& scan) {
   const auto lidar = static_cast<std::size_t>(scan.lidar_id);
-  if (tracks_.empty()) first_lidar_ = lidar;
+  if (!has_times_) first_lidar_ = lidar;
   if (lidar >= tracks_.size()) {
     tracks_.resize(lidar + 1);
     is_apart_.resize(lidar + 1, false);
     before_pose_.resize(lidar + 1);
+    has_return_.resize(lidar + 1, false);
   }
+  has_return_[lidar] = has_return_[lidar] || HasReturn(scan);
   const std::int64_t arrival = report_.scans++;
   report_.doubtful_end_s = 0.0;
   LidarTrack& track = tracks_[lidar];
   const auto times = MeasureTimes(scan, track.clock().usual_span_ns());
-  if (!times) {
-    // A scan without points has nothing to hand on.
+  if (!times) {  // Without points there is nothing to hand on.
     if (!scan.points.empty()) ++report_.misfits;
     report_.points += static_cast<std::int64_t>(scan.points.size());
     return;
   }
+  has_times_ = true;
   track.NoteArrival(scan, *times, arrival);
   if (track.IsStuck(scan, *times)) {
     ++report_.stuck;
@@ -254,23 +256,23 @@ void ScanSequencer::CompareSpans() {
   }
 }
 
-/// One that begins late, or ends early, where no shifted clock explains that.
+/// One that is never heard, or begins late, or ends early, where no shifted clock explains that.
 void ScanSequencer::NoteSilence() {
-  if (report_.clocks_may_differ) return;
   std::int64_t begin_ns = std::numeric_limits<std::int64_t>::max(), end_ns = -begin_ns;
-  for (const LidarTrack& track : tracks_) {
-    if (!track.clock().has_started()) continue;
-    begin_ns = std::min(begin_ns, track.first_ns());
-    end_ns = std::max(end_ns, track.clock().last().begin_ns);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!has_return_[i] || !tracks_[i].clock().has_started()) continue;
+    begin_ns = std::min(begin_ns, tracks_[i].first_ns());
+    end_ns = std::max(end_ns, tracks_[i].clock().last().begin_ns);
   }
   const auto note = [&](std::size_t lidar, const char* when, std::int64_t silent_ns) {
-    if (silent_ns <= kSmallShift_ns) return;
+    if (silent_ns <= kSmallShift_ns && has_return_[lidar]) return;
     report_.longest_silence_s = std::max(report_.longest_silence_s, Seconds(silent_ns));
     Remark(LidarName(lidar) + ": nothing was heard of it for the " + when + " " +
            SecondsText(silent_ns));
   };
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (!tracks_[i].clock().has_started()) continue;
+    if (!has_return_[i] && end_ns > begin_ns) note(i, "whole", end_ns - begin_ns);
+    if (!has_return_[i] || report_.clocks_may_differ || !tracks_[i].clock().has_started()) continue;
     note(i, "first", tracks_[i].first_ns() - begin_ns);
     note(i, "last", end_ns - tracks_[i].clock().last().begin_ns);
   }

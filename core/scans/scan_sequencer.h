@@ -74,9 +74,11 @@ class ScanSequencer {
   std::int64_t handed_on_arrival_ = 0;  ///< Of the scan that was handed on last.
   std::vector<LidarTrack> tracks_;
   std::vector<bool> is_apart_;
+  std::vector<bool> has_return_;  ///< For each LiDAR, whether any point of it is somewhere.
   bool has_pose_ = false;
   std::vector<std::vector<Sweep>> before_pose_;  ///< For each LiDAR, what was handed on until then.
   std::size_t first_lidar_ = 0;
+  bool has_times_ = false;  ///< A scan had any; the first LiDAR is the one that had them first.
   std::optional<std::int64_t> dropped_first_ns_;  ///< When the first scan of all began, if dropped.
   Queue queue_;  ///< In the order in which they are to be handed on.
 };

@@ -36,7 +36,8 @@ struct TimeReport {
   /// One LiDAR begins later than another, and ends as much later; or their clocks run apart.
   bool clocks_may_differ = false;
 
-  /// For how long one LiDAR is silent at the begin or at the end, while another one is heard.
+  /// For how long one LiDAR is silent at the begin or at the end, or from begin to end, while
+  /// another one is heard.
   double longest_silence_s = 0.0;
 
   /// What a user should know, a sentence each.

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // ScanSequencer with several LiDARs: whether their clocks meet, and what one tells of another.
+#include <cmath>
+#include <functional>
+
 #include "tests/core/scans/sequence_scans.h"
 
 namespace trajlo::testing {
@@ -78,6 +81,35 @@ TEST(ScanSequencer, ALidarThatBeginsAndEndsLaterThanTheFirstRaisesADoubt) {
                                                       "last "));
     }
   }
+}
+
+TEST(ScanSequencer, ALidarThatNeverGivesAPointIsSilentForTheWholeTime) {
+  const auto without_points = [](LidarScan* scan) { scan->points.clear(); };
+  const auto nowhere = [](LidarScan* scan) {
+    for (LidarPoint& point : scan->points) point.xyz_m.setZero();
+  };
+  const auto not_finite = [](LidarScan* scan) {
+    for (LidarPoint& point : scan->points) point.xyz_m.setConstant(NAN);
+  };
+  for (const int silent : {0, 1}) {
+    for (const std::function<void(LidarScan*)>& take_away :
+         {std::function<void(LidarScan*)>(without_points), std::function<void(LidarScan*)>(nowhere),
+          std::function<void(LidarScan*)>(not_finite)}) {
+      std::vector<LidarScan> scans = Rig(0);
+      for (LidarScan& scan : scans) {
+        if (scan.lidar_id == silent) take_away(&scan);
+      }
+      const TimeReport report = Sequence(scans).report;
+      EXPECT_NEAR(report.longest_silence_s, 3.9, 0.1);
+      EXPECT_THAT(report.remarks,
+                  ::testing::Contains(HasSubstr("lidar " + std::to_string(silent) +
+                                                ": nothing was heard of it for the whole 3.9")));
+    }
+  }
+  // With no LiDAR at all to hear there is no silence of one.
+  std::vector<LidarScan> scans = Rig(0);
+  for (LidarScan& scan : scans) nowhere(&scan);
+  EXPECT_EQ(Sequence(scans).report.longest_silence_s, 0.0);
 }
 
 TEST(ScanSequencer, LidarsThatAreNotSynchronisedRaiseADoubt) {
