@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstddef>
 #include <filesystem>
+#include <set>
 
 #include "apps/usage_error.h"
 #include "core/io/format_text.h"
@@ -42,6 +43,16 @@ bool ArePartsOfOne(const std::vector<std::string>& inputs) {
          });
 }
 
+/// The second would get no scan.
+void RequireDifferentTopics(const RecordingOptions& options) {
+  std::set<std::string> topics;
+  for (const std::string& topic : options.topics) {
+    if (topics.insert(topic).second) continue;
+    throw UsageError("input.topics has '" + topic +
+                     "' twice: each topic is one LiDAR. Name the topics that are meant, once each");
+  }
+}
+
 template <typename T>
 void RequireOneForEach(const char* key, const PerLidar<T>& option, std::size_t lidars) {
   const std::size_t given = option.values.size();
@@ -54,6 +65,7 @@ void RequireOneForEach(const char* key, const PerLidar<T>& option, std::size_t l
 
 void RequireOptionsOfEachLidar(const std::vector<std::string>& inputs,
                                const RecordingOptions& options) {
+  RequireDifferentTopics(options);
   const std::size_t lidars = LidarNames(inputs, options).size();
   RequireOneForEach("input.point_time", options.use_point_times, lidars);
   RequireOneForEach("input.time_field", options.time_field, lidars);
@@ -83,6 +95,7 @@ void RequireOptionsOfEachLidar(const std::vector<std::string>& inputs,
 }
 
 void RequireExtrinsics(const std::vector<std::string>& inputs, const RunConfig& config) {
+  RequireDifferentTopics(config.input);
   const std::vector<std::string> lidars = LidarNames(inputs, config.input);
   const std::size_t given = config.odometry.segmenter.T_body_lidar.size();
   if (given > lidars.size()) FailTooMany(lidars, given);

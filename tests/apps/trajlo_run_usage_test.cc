@@ -59,6 +59,14 @@ TEST_F(TrajloRunTest, SeveralTopicsWithoutTheirPosesAreRefused) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("sensor.T_body_lidar"), HasSubstr("# /b of ")));
 }
 
+TEST_F(TrajloRunTest, ATopicThatIsGivenTwiceIsRefused) {
+  WriteFile(temp_ / "in.bag", "");
+  const Outcome outcome = Call({"--input=" + input() + ".bag", "--output=" + output(),
+                                "--set=input.topics=[/a, /a],sensor.T_body_lidar=[{}, {}]"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("input.topics has '/a' twice"));
+}
+
 TEST_F(TrajloRunTest, MorePosesThanLidarsAreRefused) {
   RoomRecording room;
   room.scans = 4;
