@@ -34,6 +34,8 @@ constexpr const char* kTimeNames[] = {"t",
                                       "delta_time",
                                       "time_offset_ns",
                                       "offset_time_ns",
+                                      "timeoffset",
+                                      "point_time_offset",
                                       "stamp"};
 constexpr const char* kIntensityNames[] = {"intensity", "i",           "reflectivity",
                                            "remission", "reflectance", "signal"};
@@ -161,6 +163,14 @@ std::size_t PlaceTimes(const TimeConvention& convention, std::int64_t stamp_ns, 
 
 const Column* FindTimeColumn(const PointTable& table, const std::string& wanted) {
   return wanted.empty() ? FindAny(table, kTimeNames) : table.Find(wanted);
+}
+
+std::vector<const Column*> TimeColumns(const PointTable& table) {
+  std::vector<const Column*> columns;
+  for (const char* name : kTimeNames) {
+    if (const Column* column = table.Find(name)) columns.push_back(column);
+  }
+  return columns;
 }
 
 std::optional<TimeSample> SampleTimes(const PointTable& table, const Column& column) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/io/point_table.h"
 #include "core/io/time_convention.h"
@@ -16,6 +17,9 @@ namespace trajlo {
 /// The column with the points' times: the one named `wanted`, or the first with a known name
 /// (t, time, timestamp, offset_time, ...) if `wanted` is empty. Null if there is none.
 const Column* FindTimeColumn(const PointTable& table, const std::string& wanted);
+
+/// All columns with such a name, the most usual first.
+std::vector<const Column*> TimeColumns(const PointTable& table);
 
 /// The range of a time column over the points that are real returns (finite, not the origin);
 /// nothing if there are none with a finite time.

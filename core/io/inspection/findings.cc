@@ -26,7 +26,8 @@ void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings
   }
   if (!cloud.convention.doubt.empty()) findings->push_back(cloud.convention.doubt);
   if (cloud.stamp_is_recorded) {
-    findings->push_back("the stamps are not filled: jitter of the recorder goes into the times");
+    findings->push_back(
+        "the stamps are zero: times of recording stand for them, with the recorder's jitter");
   }
   if (cloud.stamp_is_assumed) {
     findings->push_back(

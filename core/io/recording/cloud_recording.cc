@@ -94,14 +94,22 @@ void CloudRecording::Probe(CloudMessageReader* reader, const RecordingOptions& o
                                 [](const TimeProbe& one) { return one.readable() == 0; });
   if (none) {
     const auto& warnings = reader->report().warnings;
-    throw InputError(path_, "no message with points can be read",
+    std::string why;
+    for (const TimeProbe& probe : probes) why = why.empty() ? probe.problem() : why;
+    throw InputError(path_, "no message with points can be read" + (why.empty() ? "" : ": " + why),
                      warnings.empty() ? "" : warnings.front());
   }
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     streams_[i].stamp_is_recorded = !probes[i].HasStamps();
     streams_[i].convention = probes[i].Decide();
     const std::string& topic = reader_->topics()[streams_[i].topic].name;
-    for (const std::string& doubt : {streams_[i].convention.doubt, DoubtOfFrame(frame_ids[i])}) {
+    const std::string unfilled =
+        streams_[i].stamp_is_recorded && probes[i].readable() > 0
+            ? "the stamps are zero: times of recording, which follow the end of the sweep, stand "
+              "for them, and the recorder's jitter is in all times"
+            : "";
+    for (const std::string& doubt :
+         {streams_[i].convention.doubt, unfilled, DoubtOfFrame(frame_ids[i])}) {
       if (doubt.empty()) continue;
       report_.warnings.push_back(path_.string() + ": " + topic + ": " + doubt);
     }

@@ -121,6 +121,60 @@ TEST(TimeProbe, DoesNotAskForEver) {
               HasSubstr("none of the fields (x y z curvature) has a known name"));
 }
 
+/// A field of times that are all `value`, and behind it a second field.
+PointTable WithSecondField(float value, const char* second) {
+  PointTable table = Table(100, second);
+  Column first = *table.Find(second);
+  first.name = "t";
+  first.offset = 4;  // That of y, which is zero in all points.
+  SetAll("y", value, &table);
+  table.columns.push_back(first);
+  return table;
+}
+
+TEST(TimeProbe, AConstantFieldHidesNoOther) {
+  TimeProbe probe("folder", {});
+  EXPECT_EQ(Show(Repeated(9, [] { return WithSecondField(0.0F, "timestamp"); }), &probe), 5U);
+  const TimeConvention found = probe.Decide();
+  EXPECT_EQ(found.field, "timestamp");
+  EXPECT_EQ(found.sweep_ns, kPeriod);
+  EXPECT_THAT(found.evidence, HasSubstr("field 't' is the same for all points of a scan; field "
+                                        "'timestamp'"));
+}
+
+TEST(TimeProbe, BehindAConstantFieldWhatIsNotUnderstoodIsTold) {
+  TimeProbe probe("folder", {});
+  Show(Repeated(9,
+                [] {
+                  PointTable table = WithSecondField(0.0F, "stamp");
+                  for (std::size_t i = 0; i < table.count; ++i) {
+                    const auto far = static_cast<float>(10'000'000 * i);
+                    std::memcpy(table.bytes.data() + i * 16 + 12, &far, sizeof(far));
+                  }
+                  return table;
+                }),
+       &probe);
+  const TimeConvention found = probe.Decide();
+  EXPECT_FALSE(found.HasPointTimes());
+  EXPECT_THAT(found.doubt, HasSubstr("what field 'stamp' holds is not known"));
+}
+
+TEST(TimeProbe, FieldsThatNothingIsKnownAboutAreNamed) {
+  TimeProbe unknown("folder", {});
+  Show(Repeated(9, [] { return Table(100, "curvature"); }), &unknown);
+  EXPECT_THAT(unknown.Decide().doubt,
+              HasSubstr("if one of the fields curvature has the times, name it with "
+                        "input.time_field"));
+  TimeProbe none("folder", {});
+  Show(Repeated(9, [] { return Table(100, "ring"); }), &none);
+  EXPECT_THAT(none.Decide().doubt, ::testing::Not(HasSubstr("input.time_field")));
+  for (const char* name : {"timeoffset", "point_time_offset"}) {
+    TimeProbe known("folder", {});
+    Show(Repeated(9, [&] { return Table(100, name); }), &known);
+    EXPECT_EQ(known.Decide().field, name);
+  }
+}
+
 TEST(TimeProbe, WhatIsAskedForIsObeyedOrRefused) {
   TimeOptions options;
   options.field = "time";

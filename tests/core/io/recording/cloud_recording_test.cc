@@ -149,8 +149,21 @@ TEST(CloudRecording, TheTimeOfRecordingStandsForStampsThatAreNotFilled) {
   auto messages = RegularMessages(6, 0);
   for (FakeMessage& message : messages) message.stamp_ns = 0;
   const auto recording = Open(FakeClouds({"/cloud"}, messages));
-  EXPECT_THAT(recording->description(), HasSubstr("the stamps are not filled"));
-  EXPECT_EQ(ReadAll(recording.get())[5].stamp_ns, kStart + 500 * kMs);
+  EXPECT_THAT(recording->description(), HasSubstr("which follow the end of the sweep"));
+  EXPECT_THAT(recording->report().warnings, ::testing::ElementsAre(HasSubstr("stamps are zero")));
+  const LidarScan scan = ReadAll(recording.get())[5];
+  EXPECT_EQ(scan.stamp_ns, kStart + 500 * kMs);
+  // A message is recorded when its sweep has ended.
+  EXPECT_EQ(scan.points[0].t_ns, kStart + 400 * kMs);
+}
+
+TEST(CloudRecording, WhatStampsMarkCanBeToldWhereTheyAreNotFilled) {
+  auto messages = RegularMessages(6, 0);
+  for (FakeMessage& message : messages) message.stamp_ns = 0;
+  RecordingOptions options;
+  options.stamp_at.values = {StampAt::kStart};
+  const auto recording = Open(FakeClouds({"/cloud"}, messages), options);
+  EXPECT_EQ(ReadAll(recording.get())[5].points[0].t_ns, kStart + 500 * kMs);
 }
 
 TEST(CloudRecording, ABrokenMessageIsCountedAndACutFileIsReported) {
@@ -170,7 +183,9 @@ TEST(CloudRecording, ABrokenMessageIsCountedAndACutFileIsReported) {
 TEST(CloudRecording, WithoutAReadableMessageThereIsAnError) {
   auto messages = RegularMessages(2, 100 * kMs);
   for (FakeMessage& message : messages) message.x = "distance";
-  EXPECT_THAT(ErrorOf(FakeClouds({"/cloud"}, messages)), HasSubstr("no message with points"));
+  EXPECT_THAT(ErrorOf(FakeClouds({"/cloud"}, messages)),
+              ::testing::AllOf(HasSubstr("no message with points"),
+                               HasSubstr("needs the fields x, y and z, but there are: distance")));
 }
 
 TEST(ChainedClouds, ReadsPartsOneAfterTheOtherAndJoinsTopicsByName) {
