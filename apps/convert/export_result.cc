@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 constexpr char kCommand[] = "trajlo_convert";
 constexpr int kAllCores = 0;
 
-/// Where the recording should be: as the run's command line named it, seen from here.
+/// Where the recording should be.
 std::vector<std::string> InputsOf(const ConvertRequest& request, const RunResult& result) {
   return request.exports.recording.empty() ? result.inputs : InputPaths(request.exports.recording);
 }
@@ -47,7 +47,7 @@ std::vector<std::string> RecordingOf(const ConvertRequest& request, const RunRes
     std::error_code error;
     if (fs::exists(input, error)) continue;
     throw InputError(input, "the recording of this result is not there",
-                     "Name it with --recording, or run the command where trajlo_run ran.");
+                     "Name it with --recording.");
   }
   return inputs;
 }

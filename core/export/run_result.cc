@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/run_result.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -21,11 +22,23 @@ namespace fs = std::filesystem;
 /// Where a run came to its end, whether or not all went well.
 bool ReadAllOfIt(int exit_code) { return exit_code == 0 || exit_code == 3 || exit_code == 4; }
 
+/// Where the recording was, and as the command line named it if it is not there any more.
+std::vector<std::string> InputsOf(const Json& input) {
+  const auto paths = input.at("paths").get<std::vector<std::string>>();
+  const auto absolute = input.value("absolute_paths", std::vector<std::string>());
+  const bool all_there =
+      !absolute.empty() && std::all_of(absolute.begin(), absolute.end(), [](const auto& path) {
+        std::error_code error;
+        return fs::exists(path, error);
+      });
+  return all_there ? absolute : paths;
+}
+
 void TakeSummary(const fs::path& path, RunResult* result) {
   std::ifstream file(path);
   try {
     const Json json = Json::parse(file);
-    result->inputs = json.at("input").at("paths").get<std::vector<std::string>>();
+    result->inputs = InputsOf(json.at("input"));
     const Json& code = json.at("exit").at("code");
     if (code.is_number() && ReadAllOfIt(code.get<int>())) {
       result->scans_read = json.at("input").at("scans").at("read").get<std::size_t>();

@@ -22,7 +22,7 @@ struct ResultOptions {
 
 /// What trajlo_run left in a folder, as far as it is needed to place the recording's points.
 struct RunResult {
-  /// The recording, as the command line named it.
+  /// The recording where it was; if it is not there any more, as the command line named it.
   std::vector<std::string> inputs;
   RunConfig config;  ///< With the extrinsics that were found.
   /// Of config.yaml, those that an older build knew.

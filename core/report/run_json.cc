@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/report/run_json.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/io/atomic_file.h"
@@ -26,8 +27,20 @@ Json VersionsJson() {
           {"compiler", v.compiler}};
 }
 
+/// So that the recording is found from other folders, too.
+std::vector<std::string> Absolute(const std::vector<std::string>& paths) {
+  std::vector<std::string> absolute;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::absolute(path, error);
+    absolute.push_back(error ? path : whole.lexically_normal().string());
+  }
+  return absolute;
+}
+
 Json InputJson(const RunSummary& s) {
   return {{"paths", s.inputs},
+          {"absolute_paths", Absolute(s.inputs)},
           {"understood_as", s.input_description},
           {"scans",
            {{"listed", s.read.scans_listed},

@@ -85,7 +85,7 @@ std::string RunSummary::Shortcomings() const {
   }
   if (times.longest_silence_s > kSizeableShare * DataSeconds()) {
     parts.push_back("a LiDAR is silent for " + Seconds(times.longest_silence_s) +
-                    " at the beginning or the end");
+                    ": at the beginning, at the end, or from beginning to end");
   }
   if (times.clocks_may_differ) parts.emplace_back("the clocks of the LiDARs may differ");
   std::string text;

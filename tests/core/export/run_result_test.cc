@@ -53,6 +53,16 @@ TEST_F(Result, IsReadWithTimesToTheNanosecondAndFlags) {
   EXPECT_TRUE(result.covariances.empty());
 }
 
+TEST_F(Result, NamesTheRecordingWhereItWasIfItIsStillThere) {
+  const std::string there = (folder_ / "room").string();
+  WriteFile(folder_ / "run.json",
+            R"({"exit": {"code": 0}, "input": {"paths": ["room"], "absolute_paths": [")" + there +
+                R"("], "scans": {"read": 7}}, "result": {"lost_at_s": null}})");
+  EXPECT_EQ(ReadRunResult(folder_.path()).inputs, std::vector<std::string>{"room"});
+  std::filesystem::create_directory(there);
+  EXPECT_EQ(ReadRunResult(folder_.path()).inputs, std::vector<std::string>{there});
+}
+
 TEST_F(Result, SaysWhatItsRunSaysAgainstIt) {
   EXPECT_EQ(RunShortcoming(folder_.path()), "");
   const auto ended = [&](const std::string& exit) {

@@ -48,6 +48,15 @@ RunSummary ExampleSummary() {
   return s;
 }
 
+TEST(RunJson, SaysWhereTheRecordingWas) {
+  RunSummary s;
+  s.inputs = {"sub/../a.bag", "/b.bag"};
+  const auto input = nlohmann::json::parse(RunJson(s))["input"];
+  EXPECT_EQ(input["paths"][0], "sub/../a.bag");
+  EXPECT_EQ(input["absolute_paths"][0], (std::filesystem::current_path() / "a.bag").string());
+  EXPECT_EQ(input["absolute_paths"][1], "/b.bag");
+}
+
 TEST(RunSummary, ManyScansThatRepeatPointsAreAShortcoming) {
   RunSummary s;
   s.times.scans = s.times.until_last_point = 100;
