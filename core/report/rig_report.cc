@@ -12,6 +12,8 @@ namespace {
 constexpr double kRounding = 1e-9;
 /// Three standard deviations of what RigCalibration expects.
 constexpr double kFar_m = 0.09;
+/// No carrier is larger.
+constexpr double kLongestLever_m = 10.0;
 constexpr double kFar_rad = 0.06;
 constexpr double kFar_s = 0.03;
 
@@ -54,6 +56,11 @@ std::vector<std::string> RigWarnings(const std::vector<LidarPlace>& rig) {
   });
   for (const LidarPlace& place : rig) {
     const std::string name = "LiDAR " + std::to_string(place.lidar) + " (counted from 0) ";
+    if (const double lever_m = place.T_body_lidar.t.norm(); lever_m > kLongestLever_m) {
+      warnings.push_back(name + "sits " + FormatText("%.3g m", lever_m) +
+                         " from the origin of the body by sensor.T_body_lidar: translations are in "
+                         "metres, and these may be millimetres");
+    }
     if (place.evidence == RigEvidence::kContradicted) {
       warnings.push_back(name +
                          "is not where sensor.T_body_lidar says, nor near it: its points "

@@ -56,6 +56,16 @@ TEST(RigReport, WarnsOfLidarsThatAreFarOff) {
   EXPECT_THAT(warnings(0.0, 0.0, -0.04), ElementsAre(HasSubstr("-40.0 ms")));
 }
 
+TEST(RigReport, WarnsOfLeverArmsThatMayBeMillimetres) {
+  const auto warnings = [](double x) {
+    const SE3 given(Eigen::Quaterniond::Identity(), {x, 0, 0.05});
+    return RigWarnings({CorrectedPlace(0, given, 0.0, {}, RigEvidence::kConfirmed)});
+  };
+  EXPECT_THAT(warnings(5.0), IsEmpty());
+  EXPECT_THAT(warnings(-50.0), ElementsAre(::testing::AllOf(HasSubstr("sits 50 m"),
+                                                            HasSubstr("may be millimetres"))));
+}
+
 TEST(RigReport, WarnsOfLidarsThatNothingConfirms) {
   const auto warnings = [](RigEvidence evidence) {
     return RigWarnings({CorrectedPlace(1, SE3(), 0.0, Moved(0.5, 0.0, 0.0), evidence)});
