@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <sstream>
 
@@ -209,6 +210,15 @@ void LoadYaml(const std::string& yaml, const std::string& name, bool with_places
   *config = loaded;
 }
 
+/// A comma begins another setting, so that of "a=1,5" a 5 is left.
+void RefuseDecimalComma(const std::string& before, const std::string& rest,
+                        const std::string& name) {
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  if (before.empty() || !is_digit(before.back()) || !is_digit(rest.front())) return;
+  throw ConfigError(name, "'" + before + "," + rest + "': numbers need a point ('" + before + "." +
+                              rest + "'), as a comma begins another key=value");
+}
+
 }  // namespace
 
 void LoadConfigText(const std::string& yaml, const std::string& name, RunConfig* config) {
@@ -232,11 +242,13 @@ std::vector<std::string> LoadRecordedConfig(const std::filesystem::path& path, R
 void ApplyOverrides(std::string_view settings, RunConfig* config, const std::string& name) {
   RunConfig changed = *config;
   Loader loader(name, false, &changed);
+  std::string before;
   for (const std::string& part : SplitSettings(settings)) {
     const std::string setting = Trimmed(part);
     if (setting.empty()) continue;
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
+      RefuseDecimalComma(before, setting, name);
       throw ConfigError(name, "expected key=value, found '" + setting + "'");
     }
     const std::string key = Trimmed(setting.substr(0, equals));
@@ -248,6 +260,7 @@ void ApplyOverrides(std::string_view settings, RunConfig* config, const std::str
       throw ConfigError(name, "'" + key + "' has a value that is not valid YAML: '" + value + "'");
     }
     loader.Set(key, YAML::Node(key), node);
+    before = setting;
   }
   *config = changed;
 }

@@ -154,6 +154,9 @@ TEST(Overrides, ErrorsNameTheFlagAndTheKeyButNoLine) {
       OverrideError("window.segmets=2"),
       ::testing::Eq("--set: unknown key 'window.segmets'; did you mean 'window.segments'?"));
   EXPECT_THAT(OverrideError("window.segments"), HasSubstr("expected key=value"));
+  EXPECT_THAT(OverrideError("window.segments=3,sensor.min_range_m=1,5"),
+              HasSubstr("'sensor.min_range_m=1,5': numbers need a point"));
+  EXPECT_THAT(OverrideError("window.segments=3,solver"), HasSubstr("expected key=value"));
   EXPECT_THAT(OverrideError("window.segments=two"),
               AllOf(StartsWith("--set: 'window.segments' must be a whole number from 1 to 100"),
                     HasSubstr("'two'")));
