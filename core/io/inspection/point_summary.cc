@@ -9,6 +9,9 @@
 namespace trajlo {
 namespace {
 
+/// Up to here bins are narrow.
+constexpr double kNearEnd_m = 1000.0;
+
 const Column* FindRings(const PointTable& table) {
   for (const char* name : {"ring", "line", "channel", "laser_id", "laserid", "scan_id"}) {
     const Column* column = table.Find(name);
@@ -36,8 +39,7 @@ void PointCounter::Add(const PointTable& table, const LidarScan& scan) {
     const bool first = summary_.range_max_m == 0.0;
     summary_.range_min_m = first ? range_m : std::min(summary_.range_min_m, range_m);
     summary_.range_max_m = std::max(summary_.range_max_m, range_m);
-    ++range_histogram_[static_cast<std::size_t>(
-        std::min(100.0 * range_m, static_cast<double>(kRangeBins - 1)))];
+    ++range_histogram_[RangeBin(range_m)];
     const double elevation_deg =
         std::asin(std::clamp(static_cast<double>(point.xyz_m.z()) / range_m, -1.0, 1.0)) * 180.0 /
         M_PI;
@@ -55,6 +57,12 @@ void PointCounter::Add(const PointTable& table, const LidarScan& scan) {
   });
 }
 
+std::size_t PointCounter::RangeBin(double range_m) {
+  constexpr auto kNear = static_cast<double>(kNearBins);
+  const double bin = range_m < kNearEnd_m ? 100.0 * range_m : kNear + 0.1 * (range_m - kNearEnd_m);
+  return static_cast<std::size_t>(std::min(bin, static_cast<double>(kRangeBins - 1)));
+}
+
 double PointCounter::QuantileBin(const std::vector<std::uint64_t>& histogram, double share) const {
   const auto returns = static_cast<double>(summary_.Returns());
   double sum = 0.0;
@@ -67,7 +75,9 @@ double PointCounter::QuantileBin(const std::vector<std::uint64_t>& histogram, do
 
 double PointCounter::RangeQuantile(double share) const {
   if (summary_.Returns() == 0) return 0.0;
-  const double middle_m = 0.01 * (QuantileBin(range_histogram_, share) + 0.5);
+  const double bin = QuantileBin(range_histogram_, share) + 0.5;
+  constexpr auto kNear = static_cast<double>(kNearBins);
+  const double middle_m = bin < kNear ? 0.01 * bin : kNearEnd_m + 10.0 * (bin - kNear);
   return std::clamp(middle_m, summary_.range_min_m, summary_.range_max_m);
 }
 

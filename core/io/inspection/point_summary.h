@@ -22,7 +22,8 @@ struct PointSummary {
   /// Points in a message.
   std::size_t fewest = 0, median = 0, most = 0;
   std::size_t empty_messages = 0;
-  /// Ranges of the returns, m; zeros if there are none. Median and 99 % are good to 1 cm.
+  /// Ranges of the returns, m; zeros if there are none. Median and 99 % are good to 1 cm, beyond 1
+  /// km to 10 m.
   double range_min_m = 0.0, range_median_m = 0.0, range_99_m = 0.0, range_max_m = 0.0;
   /// Angles of the returns above the x-y plane of the LiDAR: 1 % are lower, and 1 % are higher;
   /// good to 0.1 degrees. Zeros if there are none.
@@ -43,11 +44,13 @@ class PointCounter {
   PointSummary Summarise() const;
 
  private:
-  /// Of 1 cm, the last for all that is farther.
-  static constexpr std::size_t kRangeBins = 100'000;
+  /// Of 1 cm up to 1 km, then as many of 10 m, the last for all that is farther.
+  static constexpr std::size_t kNearBins = 100'000;
+  static constexpr std::size_t kRangeBins = 2 * kNearBins;
   /// Of 0.1 degrees, from straight down to straight up.
   static constexpr std::size_t kElevationBins = 1'800;
 
+  static std::size_t RangeBin(double range_m);
   /// The bin that the returns reach with this share of them, counted from the first.
   double QuantileBin(const std::vector<std::uint64_t>& histogram, double share) const;
   double RangeQuantile(double share) const;

@@ -36,6 +36,16 @@ TEST(PointCounter, CountsWhatIsNoReturnAndMeasuresTheRest) {
   EXPECT_FALSE(summary.rings);
 }
 
+TEST(PointCounter, RangesOfMillimetresAreTold) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 1; i <= 1000; ++i) points.emplace_back(0.0F, 0.0F, 20.0F * static_cast<float>(i));
+  PointCounter counter;
+  counter.Add({}, ScanOf(points));
+  const PointSummary summary = counter.Summarise();
+  EXPECT_NEAR(summary.range_median_m, 10'000.0, 10.0);
+  EXPECT_NEAR(summary.range_99_m, 19'800.0, 10.0);
+}
+
 TEST(PointCounter, RangesBeyondTheHistogramDoNotBreakIt) {
   PointCounter counter;
   counter.Add({}, ScanOf({{1e30F, 0, 0}, {1e-3F, 0, 0}}));
