@@ -43,8 +43,9 @@ Flags:
   --quiet                   show no progress
   -h, --help, --version
 
-Exit codes: 0 ok, 1 wrong usage, 2 a recording is unreadable, 3 a recording is damaged (what can be
-read is shown), 5 output not writable, 6 out of memory or a defect of the program, 130 interrupted.
+Exit codes: 0 ok, 1 wrong usage, 2 a recording is unreadable, or has clouds without a point, 3 a
+recording is damaged (what can be read is shown), 5 output not writable, 6 out of memory or a defect
+of the program, 130 interrupted.
 )";
 
 ExitCode Info(const trajlo::CommandLine& line) {

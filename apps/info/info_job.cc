@@ -42,6 +42,7 @@ ExitCode InfoJob(const InfoRequest& request, const std::atomic<bool>& stop) {
       unreadable = true;
       continue;
     }
+    unreadable = unreadable || (!stop && found.back().IsWithoutReturns());
     if (request.json) continue;
     std::printf("%s%s", found.size() > 1 ? "\n\n" : "",
                 InfoTable(found.back(), request.program_folder).c_str());

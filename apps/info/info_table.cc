@@ -197,7 +197,10 @@ std::string InfoTable(const RecordingInspection& recording, const std::string& p
              "\n";
   }
   const RunAdvice advice = AdviseRun(recording);
-  if (advice.command.empty()) return table + "\nno point clouds: there is nothing to run on\n";
+  if (advice.command.empty()) {
+    return table + (recording.clouds.empty() ? "\nno point clouds" : "\nno cloud has a point") +
+           ": there is nothing to run on\n";
+  }
   table += "\nto run on it:\n  " + program_folder + advice.command + "\n";
   for (const std::string& remark : advice.remarks) table += "  - " + remark + "\n";
   return table;

@@ -103,6 +103,20 @@ TEST(TrajloInfo, WhatIsUnreadableExitsWithTwoAfterShowingTheRest) {
   EXPECT_THAT(outcome.out, HasSubstr("lidar 0"));
 }
 
+TEST(TrajloInfo, CloudsWithoutAPointAreNothingToRunOn) {
+  const TempFolder folder;
+  RoomRecording room;
+  room.Write(folder / "room");
+  for (int i = 0; i < room.scans; ++i) {
+    RoomRecording::WriteScan(RoomRecording::File(folder / "room", i), {});
+  }
+  const Outcome outcome = Info({(folder / "room").string()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("no cloud has a point: there is nothing to run on"),
+                                 HasSubstr("no point is a return"),
+                                 ::testing::Not(HasSubstr("only 0 returns"))));
+}
+
 /// Of a Velodyne with old firmware that turns: every measurement is 10 m.
 std::string UnnamedVelodynePacket(int index) {
   std::string packet;

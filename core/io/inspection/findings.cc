@@ -17,6 +17,7 @@ namespace {
 constexpr double kOverlapShare = 0.1;
 constexpr double kPauseShare = 0.5;
 constexpr std::size_t kFewReturns = 500;
+constexpr double kMedianOfNoLidar_m = 300.0;
 
 void JudgeTimes(const CloudInspection& cloud, std::vector<std::string>* findings) {
   if (!cloud.time_problem.empty()) {
@@ -94,9 +95,18 @@ void JudgePoints(const CloudInspection& cloud, std::vector<std::string>* finding
                         " no points");
   }
   const std::size_t readable = cloud.messages_read - cloud.messages_unreadable;
-  if (readable > 0 && points.Returns() < kFewReturns * readable) {
+  const bool has_few = readable > 0 && points.Returns() < kFewReturns * readable;
+  if (has_few && points.Returns() == 0) {
+    findings->push_back("no point is a return: trajlo_run will refuse this LiDAR alone");
+  } else if (has_few) {
     findings->push_back(
         FormatText("only %zu returns a message: little to register", points.Returns() / readable));
+  }
+  if (points.range_median_m > kMedianOfNoLidar_m) {
+    findings->push_back(
+        FormatText("half of the points are farther than %.0f m: the coordinates may be in "
+                   "millimetres, and must be in metres",
+                   points.range_median_m));
   }
   if (cloud.frame_ids.size() > 1) {
     findings->push_back(FormatText("%zu frame ids on one topic", cloud.frame_ids.size()));

@@ -168,7 +168,7 @@ RecordingInspection InspectClouds(const fs::path& path, const Open& open,
     known.type = topic.type;
     known.remark = topic.remark;
     known.messages_listed = topic.messages;
-    known.stamp_is_recorded = !probes[i].HasStamps();
+    known.stamp_is_recorded = probes[i].readable() > 0 && !probes[i].HasStamps();
     try {
       known.convention = probes[i].Decide();
     } catch (const InputError& error) {

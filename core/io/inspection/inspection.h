@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -92,6 +93,13 @@ struct RecordingInspection {
   bool damaged = false;
   std::uint64_t bytes_lost = 0;
   std::vector<std::string> warnings;
+
+  /// There are LiDARs, and none has measured anything: trajlo_run would refuse.
+  bool IsWithoutReturns() const {
+    return !clouds.empty() && std::all_of(clouds.begin(), clouds.end(), [](const auto& cloud) {
+      return cloud.points.Returns() == 0;
+    });
+  }
 };
 
 }  // namespace trajlo

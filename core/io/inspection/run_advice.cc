@@ -217,7 +217,7 @@ bool IsInFixedFrame(const CloudInspection& cloud) {
 std::vector<CloudInspection> LidarsOf(const RecordingInspection& recording) {
   std::vector<CloudInspection> clouds, in_fixed_frame;
   for (const CloudInspection& cloud : recording.clouds) {
-    if (cloud.points.total == 0) continue;
+    if (cloud.points.Returns() == 0) continue;
     (IsInFixedFrame(cloud) ? in_fixed_frame : clouds).push_back(cloud);
   }
   return clouds.empty() ? in_fixed_frame : clouds;

@@ -40,6 +40,12 @@ TEST(FindingsOf, CloudsThatAreRegisteredAlreadyAreNamed) {
   EXPECT_THAT(FindingsOf(cloud), Contains(HasSubstr("in frame 'camera_init'")));
 }
 
+TEST(FindingsOf, CoordinatesThatMayBeMillimetresAreNamed) {
+  CloudInspection cloud = Cloud("/a", {});
+  cloud.points.range_median_m = 5000.0;
+  EXPECT_THAT(FindingsOf(cloud), Contains(HasSubstr("may be in millimetres")));
+}
+
 TEST(FindingsOf, StampsThatMayBeInAnotherUnitAreNamed) {
   CloudInspection cloud = Cloud("/a", {});
   cloud.stamps.period_s = 100.0;
