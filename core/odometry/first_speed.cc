@@ -136,6 +136,12 @@ SegmentCloud Telling(SegmentCloud segment, const std::vector<RegistrationPoint>&
 
 bool IsSameSpeed(double a_m_s, double b_m_s) { return std::abs(a_m_s - b_m_s) < kSame_m_s; }
 
+std::vector<double> SpeedsToTry() {
+  std::vector<double> speeds_m_s;
+  for (double v = -kFastest_m_s; v <= kFastest_m_s; v += kStep_m_s) speeds_m_s.push_back(v);
+  return speeds_m_s;
+}
+
 /// The speeds of those with the most places, each once.
 std::vector<double> BestSpeeds(Followers followers) {
   std::stable_sort(followers.begin(), followers.end(),
@@ -186,26 +192,20 @@ FirstMotion FindFirstSpeed(const std::vector<SegmentCloud>& segments, std::size_
   if (as_found.places() >= kLargeWorld) return found;
 
   ThreadPool one(1);
-  const auto follow = [&](double speed_m_s, double duration_s) {
-    auto follower = std::make_unique<Follower>(first, found.velocity, direction, speed_m_s, options,
-                                               make_solver, &one);
+  const auto follow = [&](const std::vector<double>& speeds_m_s, double duration_s) {
     const std::int64_t end_ns = first.back().end_ns + Nanoseconds(duration_s);
-    for (const SegmentCloud& segment : telling) {
-      if (segment.end_ns <= end_ns) follower->Follow(segment);
-    }
-    return follower;
+    Followers followers(speeds_m_s.size());
+    threads->ParallelFor(followers.size(), [&](std::size_t i) {
+      followers[i] = std::make_unique<Follower>(first, found.velocity, direction, speeds_m_s[i],
+                                                options, make_solver, &one);
+      for (const SegmentCloud& segment : telling) {
+        if (segment.end_ns <= end_ns) followers[i]->Follow(segment);
+      }
+    });
+    return followers;
   };
-  Followers all(2 * static_cast<std::size_t>(kFastest_m_s / kStep_m_s) + 1);
-  threads->ParallelFor(all.size(), [&](std::size_t i) {
-    all[i] = follow(static_cast<double>(i) * kStep_m_s - kFastest_m_s, kFirstRound_s);
-  });
-  const std::vector<double> speeds_m_s = BestSpeeds(std::move(all));
-  Followers finalists(speeds_m_s.size());
-  threads->ParallelFor(finalists.size(), [&](std::size_t i) {
-    finalists[i] = follow(speeds_m_s[i], kSpeedSearch_s);
-  });
-
-  const std::optional<std::size_t> best = ClearlyAnother(finalists, as_found);
+  const std::vector<double> speeds_m_s = BestSpeeds(follow(SpeedsToTry(), kFirstRound_s));
+  const auto best = ClearlyAnother(follow(speeds_m_s, kSpeedSearch_s), as_found);
   if (!best) return found;
   FirstMotion motion = found;
   motion.velocity.head<3>() += (speeds_m_s[*best] - found_m_s) * direction;

@@ -16,8 +16,9 @@ constexpr double kSizeableShare = 0.05;
 /// assumes (0.5 m²/s³) strays by 4.6 m.
 constexpr double kLongOpen_s = 5.0;
 /// And if it does so for more than this share of the time, however short each time is: people who
-/// walk ahead seem to hold a corridor lengthways now and then.
-constexpr double kOpenShare = 0.5;
+/// walk ahead seem to hold a corridor lengthways now and then. (With few lasers, a right walk
+/// through a corridor of doors is open for half of the time.)
+constexpr double kOpenShare = 2.0 / 3.0;
 /// Who swings on a rope, and is found each time, is in doubt for up to a fifth of the time; who
 /// follows a facade metres off, for a third.
 constexpr double kDoubtfulShare = 0.25;

@@ -75,7 +75,7 @@ struct RunSummary {
   /// Pauses count if they take more than 5 % of the time, flags if they take more than 95 %, poses
   /// that jump or have been in doubt since if they take more than a quarter, a body at rest whose
   /// points cannot have been seen from one place (SightLines), and a direction that points leave
-  /// open if they do so for more than five seconds on end, or for more than half of the time. So do
+  /// open if they do so for more than five seconds on end, or for two thirds of the time. So do
   /// a LiDAR that contradicts its extrinsic, or is silent for more than 5 % of the time at either
   /// end or throughout, clocks that may differ, and a recording that is too short for a window.
   std::string Shortcomings() const;
