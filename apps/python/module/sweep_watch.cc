@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/io/format_text.h"
+#include "core/scans/median.h"
 #include "core/scans/nanoseconds.h"
 #include "core/scans/scan_times.h"
 
@@ -13,15 +14,9 @@ namespace {
 constexpr std::size_t kScans = 10;
 constexpr std::size_t kScansAtEnd = 3;
 
-double UpperMedian(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// From the first to the last time of points, without a fiftieth at each end: a few wrong times do
 /// not make another unit. Negative without points.
-double SpanS(const LidarScan& scan) {
+double Span_s(const LidarScan& scan) {
   std::vector<std::int64_t> times_ns;
   times_ns.reserve(scan.points.size());
   for (const LidarPoint& point : scan.points) {
@@ -41,7 +36,7 @@ double SpanS(const LidarScan& scan) {
 void SweepWatch::Note(const LidarScan& scan) {
   Lidar& lidar = lidars_[scan.lidar_id];
   if (is_told_ || lidar.spans_s.size() >= kScans || !scan.has_point_times) return;
-  const double span_s = SpanS(scan);
+  const double span_s = Span_s(scan);
   if (span_s < 0.0) return;
   if (!lidar.spans_s.empty()) {
     const double period_s = Seconds(Difference(scan.stamp_ns, lidar.last_stamp_ns));
