@@ -13,8 +13,8 @@
 #include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/start/beginning.h"
 #include "core/odometry/start/coarse_to_fine.h"
-#include "core/odometry/start/facing.h"
 #include "core/odometry/tracker.h"
+#include "core/odometry/window/facing.h"
 
 namespace trajlo {
 namespace {
@@ -38,6 +38,10 @@ constexpr int kSeenAgain = 4;
 constexpr int kLargeWorld = 40;
 /// By which a speed must have more places than others, in their standard deviations.
 constexpr double kClearDeviations = 2.0;
+/// Of what faces the direction, it must have this share of the agreement that the speed as found
+/// has: 0.7 where that was the speed of traffic, and 0.25 and 0.44 where the body was at rest
+/// before a row of houses.
+constexpr double kToBelieve = 0.6;
 /// Of a segment, at most this many points that may tell the speed are followed and enter the map,
 /// and about this many of the others, to hold all but the way along the direction. Those of a road
 /// are too many, and dear.
@@ -83,11 +87,13 @@ class Follower {
     const SegmentMotion motion(window->Pose(window->size() - 1), newest.T_world_end);
     for (const RegistrationPoint& point : newest.points) {
       const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
-      if (std::abs(point.DistanceToPlane(p_world)) > kAgreement_m) continue;
-      if (!IsFacing(point, direction_)) {
+      const bool agrees = std::abs(point.DistanceToPlane(p_world)) < kAgreement_m;
+      if (IsFacing(point, direction_)) {
+        ++facing_;
+        agreeing_ += agrees ? 1 : 0;
+        if (agrees && ++seen_[CellOf(p_world, kPlace_m)] == kSeenAgain) ++places_;
+      } else if (agrees) {
         along.push_back(point);
-      } else if (++seen_[CellOf(p_world, kPlace_m)] == kSeenAgain) {
-        ++places_;
       }
     }
     speed_m_s_ = direction_.dot(motion.R_begin * window->EndVelocity().head<3>());
@@ -99,6 +105,8 @@ class Follower {
     const bool has_slid = std::abs(speed_m_s_ - begin_m_s_) > kMostChange_m_s;
     return is_lost_ || has_slid ? 0 : places_;
   }
+  /// Of the points whose planes face the direction, the share that lies on them.
+  double AgreeingShare() const { return agreeing_ / std::max(facing_, 1.0); }
   /// Now.
   double speed_m_s() const { return speed_m_s_; }
 
@@ -107,6 +115,7 @@ class Follower {
   const double begin_m_s_;
   double speed_m_s_;
   bool is_lost_ = false;
+  double facing_ = 0.0, agreeing_ = 0.0;
   std::map<Cell, int> seen_;
   int places_ = 0;
   RigCalibration rig_{false};
@@ -156,21 +165,25 @@ std::vector<double> BestSpeeds(Followers followers) {
   return speeds_m_s;
 }
 
-/// Which of them has the most places, if these are clearly more than those of any that found
-/// another speed, and it is not the speed that `as_found` comes to.
+/// Which of those that agree well enough has the most places, if these are clearly more than those
+/// of any that found another speed, and it is not the speed that `as_found` comes to.
 std::optional<std::size_t> ClearlyAnother(const Followers& finalists, const Follower& as_found) {
-  const auto best =
-      std::max_element(finalists.begin(), finalists.end(),
-                       [](const auto& a, const auto& b) { return a->places() < b->places(); });
-  const double end_m_s = (*best)->speed_m_s();
+  const double to_believe = kToBelieve * as_found.AgreeingShare();
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < finalists.size(); ++i) {
+    if (finalists[i]->AgreeingShare() < to_believe) continue;
+    if (!best || finalists[i]->places() > finalists[*best]->places()) best = i;
+  }
+  if (!best) return std::nullopt;
+  const double end_m_s = finalists[*best]->speed_m_s();
   if (IsSameSpeed(as_found.speed_m_s(), end_m_s)) return std::nullopt;
   int elsewhere = as_found.places();
   for (const auto& follower : finalists) {
     if (IsSameSpeed(follower->speed_m_s(), end_m_s)) continue;
     elsewhere = std::max(elsewhere, follower->places());
   }
-  if ((*best)->places() <= elsewhere + kClearDeviations * std::sqrt(elsewhere)) return std::nullopt;
-  return static_cast<std::size_t>(best - finalists.begin());
+  const double clearly = elsewhere + kClearDeviations * std::sqrt(elsewhere);
+  return finalists[*best]->places() > clearly ? best : std::nullopt;
 }
 
 }  // namespace

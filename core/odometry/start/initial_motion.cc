@@ -200,8 +200,10 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
   const bool is_at_rest = motion.tau.head<3>().norm() < kAtRest_m;
   const bool is_searched =
       direction && !(is_at_rest && interval.IsShownAlong(*direction, motion.tau));
-  motion.open_direction = direction;
-  if (is_searched) motion.tau = SearchAlong(*direction, interval, motion.tau, threads);
+  if (is_searched) {
+    motion.open_direction = direction;
+    motion.tau = SearchAlong(*direction, interval, motion.tau, threads);
+  }
   const auto evidence_for = [&](const Vector6d& tau) {
     const MotionHypothesis hypothesis = interval.At(tau);
     return MotionEvidence{hypothesis.Agreeing(), hypothesis.WithPlane(),

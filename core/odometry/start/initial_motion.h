@@ -28,7 +28,7 @@ struct InitialMotion {
   MotionEvidence found;    ///< For tau.
   MotionEvidence at_rest;  ///< For a sensor that stood still.
   /// The direction of translation in the frame of the first pose that hardly any point holds, if
-  /// there is one.
+  /// there is one; none where the few that tell say that the body is at rest.
   std::optional<Eigen::Vector3d> open_direction;
 };
 

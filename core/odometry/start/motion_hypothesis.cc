@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/odometry/start/coarse_to_fine.h"
-#include "core/odometry/start/facing.h"
+#include "core/odometry/window/facing.h"
 #include "core/odometry/window/association.h"
 #include "core/odometry/window/points_to_world.h"
 #include "factors/plane_distances.h"

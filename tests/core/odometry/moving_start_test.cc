@@ -58,6 +58,17 @@ TEST(MovingStart, WhatOneIntervalLeavesOpenIsFoundByFollowingForLonger) {
   EXPECT_LT(testing::SimulatedRun(scenario).LargestError_m(), 0.3);
 }
 
+/// Two LiDARs see a row of houses, which repeats itself: at a wrong speed, chance finds some of it
+/// again.
+TEST(MovingStart, ABodyAtRestBeforeARowOfHousesStaysThere) {
+  for (const std::uint64_t seed : {5, 6}) {
+    simulation::Scenario scenario = simulation::MakeScenario("long_facade_os1_16x2");
+    scenario.duration_s = 3.5;
+    scenario.seed = seed;
+    EXPECT_LT(testing::SimulatedRun(scenario).LargestError_m(), 0.1) << "seed " << seed;
+  }
+}
+
 /// In a flight with quick turns no constant twist explains the first 0.3 s.
 class InAFlight : public ::testing::TestWithParam<Start> {};
 
