@@ -168,8 +168,11 @@ void Tracker::LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* stat
 /// Judges the window by those before it as well.
 void Tracker::Watch(WindowStatistics* statistics) {
   if (inlier_watch_.HasFew(*statistics)) statistics->flags |= kFlagFewInliers;
+  if (window_.is_believed && lone_object_.IsContradicted(window_)) {
+    statistics->flags |= kFlagLoneObject;
+  }
   // These take time to show: they hold for all poses that are still here.
-  const unsigned late = statistics->flags & (kFlagFewInliers | kFlagJump);
+  const unsigned late = statistics->flags & (kFlagFewInliers | kFlagJump | kFlagLoneObject);
   poses_.FlagFirst(late);
   window_.begin_flags |= late;
   for (Segment& segment : window_.segments) segment.flags |= late;
@@ -316,6 +319,7 @@ void Tracker::Lose(std::int64_t t_ns) {
   // What was usual there says nothing here, and wrong windows taught wrong motions.
   motion_prior_ = MotionPrior(options_.motion_prior);
   inlier_watch_ = InlierWatch();
+  lone_object_ = LoneObjectWatch();
   loss_watch_ = LossWatch();
   support_ = SupportWatch();
   doubt_ = DoubtWatch();

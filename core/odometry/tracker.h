@@ -7,6 +7,7 @@
 
 #include "core/odometry/health/doubt.h"
 #include "core/odometry/health/inlier_watch.h"
+#include "core/odometry/health/lone_object.h"
 #include "core/odometry/health/loss_watch.h"
 #include "core/odometry/health/support.h"
 #include "core/odometry/leaving_poses.h"
@@ -102,6 +103,7 @@ class Tracker {
   MotionPrior motion_prior_;
   WindowEstimator estimator_;
   InlierWatch inlier_watch_;
+  LoneObjectWatch lone_object_;
   LossWatch loss_watch_;
   SupportWatch support_;
   DoubtWatch doubt_;

@@ -59,6 +59,9 @@ std::vector<std::string> FlagWarnings(const RunSummary& summary) {
   warn_of_share("jump",
                 " poses jump further than a body can move, or have been in doubt since then; they "
                 "may be wrong");
+  warn_of_share("lone_object",
+                " one object alone holds a direction, and the rest of the world contradicts it: it "
+                "may move along with the body, as a truck ahead does");
   return warnings;
 }
 

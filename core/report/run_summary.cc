@@ -185,7 +185,8 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
                    100.0 * points.sight_lines.Share()) +
         ": are the points in the LiDAR's own frame? Clouds that were registered already are not");
   }
-  const FlaggedPoses jump = flags.totals().at("jump"), open = flags.totals().at("degenerate");
+  const FlaggedPoses jump = flags.totals().at("jump"), open = flags.totals().at("degenerate"),
+                     lone = flags.totals().at("lone_object");
   if (too_short) return;  // It is said above that nothing confirms the poses.
   if (flags.any().seconds > (1.0 - kSizeableShare) * flags.seconds()) {
     parts->push_back(
@@ -201,6 +202,12 @@ void RunSummary::AddWeakTrajectory(std::vector<std::string>* parts) const {
         "for %.2f of %.2f s the points left a direction open (flag degenerate): nothing tells how "
         "the body moved along or about it",
         open.seconds, flags.seconds()));
+  } else if (lone.seconds > kDoubtfulShare * flags.seconds()) {
+    parts->push_back(
+        FormatText("for %.2f of %.2f s one object alone holds a direction, and the rest of the "
+                   "world contradicts it (flag lone_object)",
+                   lone.seconds, flags.seconds()) +
+        ": it may move along with the body, as a truck ahead does");
   } else if (jump.seconds > kDoubtfulShare * flags.seconds()) {
     parts->push_back(
         FormatText("for %.2f of %.2f s poses jump further than a body can move, or have been "

@@ -32,6 +32,7 @@ std::string FlagNames(unsigned flags) {
       {kFlagReverted, "reverted"},      {kFlagNotConverged, "not_converged"},
       {kFlagDegenerate, "degenerate"},  {kFlagLost, "lost"},
       {kFlagFewInliers, "few_inliers"}, {kFlagJump, "jump"},
+      {kFlagLoneObject, "lone_object"},
   };
   std::string text;
   for (const auto& [flag, name] : names) {

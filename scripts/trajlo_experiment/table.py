@@ -11,7 +11,7 @@ from trajlo_batch.yaml_lines import SuiteError
 from trajlo_report import files
 
 FLAGS = ("no_points", "gap", "reverted", "not_converged", "degenerate", "lost",
-         "few_inliers", "jump")
+         "few_inliers", "jump", "lone_object")
 COLUMNS = {"points": "points_per_window", "rounds": "rounds_per_window",
            "iterations": "iterations_per_window"}
 METRICS = ("cpu_ms_per_data_second", "windows", *COLUMNS.values(), "rejected_steps",

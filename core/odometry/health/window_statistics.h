@@ -21,11 +21,13 @@ enum WindowFlag : unsigned {
   kFlagLost = 1u << 5,          ///< The scene is no longer followed: see LossWatch.
   kFlagFewInliers = 1u << 6,    ///< Too few points agree with the map: InlierWatch.
   kFlagJump = 1u << 7,          ///< A pose jumped as no body does: HasJumped.
+  kFlagLoneObject = 1u << 8,    ///< One object alone holds a direction, and the rest of the world
+                                ///< contradicts it: LoneObjectWatch.
 };
 
 constexpr unsigned kAllFlags[] = {
-    kFlagNoPoints,   kFlagGap,  kFlagReverted,   kFlagNotConverged,
-    kFlagDegenerate, kFlagLost, kFlagFewInliers, kFlagJump,
+    kFlagNoPoints, kFlagGap,        kFlagReverted, kFlagNotConverged, kFlagDegenerate,
+    kFlagLost,     kFlagFewInliers, kFlagJump,     kFlagLoneObject,
 };
 
 /// A window that moves by more than this in a round has not settled, whatever tolerance the options

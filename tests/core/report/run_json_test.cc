@@ -235,6 +235,21 @@ TEST(RunSummary, SaysThatPosesWereInDoubtForAQuarterOfTheTime) {
             "since then (flag jump)");
 }
 
+TEST(RunSummary, SaysThatOneObjectHeldTheBodyForAQuarterOfTheTime) {
+  std::vector<ControlPose> poses(101);
+  for (int i = 0; i <= 100; ++i) poses[i].t_ns = i * 100'000'000LL;
+  for (int i = 1; i <= 24; ++i) poses[i].flags = kFlagLoneObject;
+  RunSummary s;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.Shortcomings(), "");
+  poses[25].flags = poses[26].flags = kFlagLoneObject;
+  s.flags = PoseFlags(poses, std::nullopt);
+  EXPECT_EQ(s.Shortcomings(),
+            "for 2.60 of 10.00 s one object alone holds a direction, and the rest of the world "
+            "contradicts it (flag lone_object): it may move along with the body, as a truck ahead "
+            "does");
+}
+
 TEST(RunSummary, SaysThatNothingWasMeasuredForLong) {
   constexpr std::int64_t kMillisecond = 1'000'000;
   std::vector<ControlPose> poses = {{0, {}, 0}, {9500 * kMillisecond, {}, 0}, {0, {}, kFlagGap}};
