@@ -106,16 +106,20 @@ def read_ply(path):
     return np.stack([columns[axis] for axis in "xyz"], axis=1)
 
 
+def csv_cell(value):
+    """A value as in the files of the commands: true and false as in JSON, nothing for None."""
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    return f"{value:.9g}" if isinstance(value, float) else "" if value is None else str(value)
+
+
 def to_csv(rows):
     """Mappings with the same keys as text, a line each below the names."""
-    def cell(value):
-        return f"{value:.9g}" if isinstance(value, float) else "" if value is None else str(value)
-
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     if rows:
         writer.writerow(rows[0])
-    writer.writerows([cell(value) for value in row.values()] for row in rows)
+    writer.writerows([csv_cell(value) for value in row.values()] for row in rows)
     return stream.getvalue()
 
 

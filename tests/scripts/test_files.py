@@ -51,6 +51,19 @@ class PlyTest(FolderTest):
                 self.read(HEAD + "property float x\n" + more, bytes(100))
 
 
+class CsvTest(FolderTest):
+    ROW = {"lost": True, "in_doubt": np.False_, "seed": 1, "error_m": 0.1, "reason": None}
+
+    def test_truth_values_are_written_as_in_json(self):
+        self.assertEqual(files.to_csv([self.ROW]),
+                         "lost,in_doubt,seed,error_m,reason\ntrue,false,1,0.1,\n")
+
+    def test_they_are_read_as_texts_beside_numbers(self):
+        columns = files.read_columns(self.write("results.csv", files.to_csv([self.ROW])))
+        self.assertEqual(columns["lost"], ["true"])
+        np.testing.assert_array_equal(columns["seed"], [1.0])
+
+
 class GapsTest(unittest.TestCase):
     def test_a_time_is_in_a_gap_if_both_its_neighbours_are_far(self):
         known = np.array([0.0, 1.0, 5.0])
