@@ -53,6 +53,10 @@ bool SkipWords(std::string_view* line, std::size_t count) {
   return true;
 }
 
+bool IsBlank(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
 /// Parses one row into consecutive 8-byte values at `out`.
 bool ParseRow(std::string_view line, const std::vector<AsciiField>& fields, char* out) {
   for (const AsciiField& field : fields) {
@@ -98,7 +102,7 @@ std::string_view TakeWord(std::string_view* line) {
 }
 
 PointTable ParseAsciiTable(std::string_view text, const std::vector<AsciiField>& fields,
-                           std::size_t declared_count) {
+                           std::size_t declared_count, bool are_last) {
   PointTable table;
   const auto kept = static_cast<std::size_t>(std::count_if(fields.begin(), fields.end(), IsKept));
   const std::size_t stride = kept * sizeof(double);
@@ -117,7 +121,7 @@ PointTable ParseAsciiTable(std::string_view text, const std::vector<AsciiField>&
   std::size_t row = 0;
   std::string_view line;
   while (row < declared_count && kept > 0 && TakeLine(&text, &line)) {
-    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    if (IsBlank(line)) continue;
     if (table.count * stride + stride > table.bytes.size()) break;
     if (ParseRow(line, fields, table.bytes.data() + table.count * stride)) {
       ++table.count;
@@ -127,6 +131,9 @@ PointTable ParseAsciiTable(std::string_view text, const std::vector<AsciiField>&
     ++row;
   }
   table.bytes.Shrink(table.count * stride);
+  while (are_last && row == declared_count && TakeLine(&text, &line)) {
+    table.undeclared += IsBlank(line) ? 0 : 1;
+  }
   if (table.count < declared_count) {
     table.damage = std::to_string(declared_count) + " points declared, " +
                    std::to_string(table.count) + " readable";

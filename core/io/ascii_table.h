@@ -22,9 +22,9 @@ struct AsciiField {
 /// Parses up to `declared_count` rows of numbers, one row a line, from `text`.
 /// Whole numbers become int64 and all others float64, so that a stamp written out in full keeps
 /// all its digits even if the header calls it a float32. A row that cannot be parsed is left out
-/// and mentioned in `damage`.
+/// and mentioned in `damage`. If nothing else follows the rows, those behind are `undeclared`.
 PointTable ParseAsciiTable(std::string_view text, const std::vector<AsciiField>& fields,
-                           std::size_t declared_count);
+                           std::size_t declared_count, bool are_last);
 
 /// Takes the next line off `text`, without its line end (LF or CRLF).
 /// Returns false at the end of the text.

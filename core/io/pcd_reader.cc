@@ -178,7 +178,7 @@ PointTable ReadAscii(const PcdHeader& header, std::string_view body) {
   for (const PcdField& field : header.fields) {
     fields.push_back({field.name, field.type, field.repeat, false});
   }
-  return ParseAsciiTable(body, fields, static_cast<std::size_t>(header.points));
+  return ParseAsciiTable(body, fields, static_cast<std::size_t>(header.points), true);
 }
 
 PointTable ReadBinary(const PcdHeader& header, FileBytes bytes) {

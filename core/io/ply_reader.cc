@@ -58,6 +58,15 @@ std::optional<std::size_t> SkipElement(const PlyElement& element, std::string_vi
   return at;
 }
 
+/// Rows of one size that follow the declared ones where the file should end.
+std::size_t RowsBehind(const PlyHeader& header, std::size_t bytes_there) {
+  const PlyElement& vertex = header.elements[header.vertex];
+  if (vertex.HasList() || header.vertex + 1 < header.elements.size()) return 0;
+  const std::size_t row_bytes = vertex.RowBytes();
+  if (row_bytes == 0 || bytes_there / row_bytes <= vertex.count) return 0;
+  return bytes_there / row_bytes - static_cast<std::size_t>(vertex.count);
+}
+
 void NoteMissing(const PlyElement& vertex, std::size_t bytes_there, PointTable* table) {
   if (table->count == vertex.count) return;
   table->damage = std::to_string(vertex.count) + " vertices declared, " +
@@ -122,7 +131,8 @@ PointTable ReadAscii(const PlyHeader& header, std::string_view body) {
   for (const PlyProperty& property : vertex.properties) {
     fields.push_back({property.name, property.type, 1, property.is_list});
   }
-  return ParseAsciiTable(body, fields, static_cast<std::size_t>(vertex.count));
+  return ParseAsciiTable(body, fields, static_cast<std::size_t>(vertex.count),
+                         header.vertex + 1 == header.elements.size());
 }
 
 }  // namespace
@@ -149,6 +159,7 @@ PointTable ReadPly(const std::filesystem::path& path, FileBytes bytes) {
   PointTable table = vertex.HasList() ? GatherRows(vertex, bytes.view(), swap, at)
                                       : ViewRows(vertex, std::move(bytes), swap, at);
   NoteMissing(vertex, bytes_there, &table);
+  table.undeclared = RowsBehind(header, bytes_there);
   return table;
 }
 

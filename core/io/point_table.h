@@ -48,6 +48,8 @@ struct PointTable {
   FileBytes bytes;
   std::vector<Column> columns;
   std::size_t count = 0;
+  /// Points that are there behind those that the header declares, and are not read.
+  std::size_t undeclared = 0;
   /// Empty, or a sentence with numbers about what is missing in the file.
   std::string damage;
 

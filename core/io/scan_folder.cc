@@ -140,6 +140,7 @@ ScanFolder::Outcome ScanFolder::Decode(std::size_t index, LidarScan reused) cons
     }
     const auto stamp_ns =
         stamps_.t_ns.empty() ? std::nullopt : std::optional<std::int64_t>(stamps_.t_ns[index]);
+    outcome.points_undeclared = table.undeclared;
     outcome.points_without_time = DecodeScan(file, table, convention_, stamp_ns, &outcome.scan);
     ShiftTimes(options_.clock_offset_ns, &outcome.scan);
     outcome.scan.lidar_id = options_.lidar_id;
@@ -163,6 +164,17 @@ std::optional<std::int64_t> ScanFolder::recorded_ns() const {
   return recorded_ns_[last_];
 }
 
+void ScanFolder::CountPoints(const Outcome& outcome, std::size_t points) {
+  if (outcome.points_undeclared > 0 && report_.points_undeclared == 0) {
+    Warn({listing_.files[outcome.index].string() + ": the header declares " +
+          CountOf(points, "point") + ", and " + std::to_string(outcome.points_undeclared) +
+          " more follow: only those declared are read"});
+  }
+  report_.points_read += points;
+  report_.points_without_time += outcome.points_without_time;
+  report_.points_undeclared += outcome.points_undeclared;
+}
+
 bool ScanFolder::Next(LidarScan* scan) {
   if (!ahead_.valid()) StartNext({});
   while (ahead_.valid()) {
@@ -175,11 +187,10 @@ bool ScanFolder::Next(LidarScan* scan) {
     }
     std::swap(*scan, outcome.scan);
     last_ = outcome.index;
-    if (options_.read_ahead) StartNext(std::move(outcome.scan));
     ++report_.scans_read;
     report_.scans_damaged += outcome.damage.empty() ? 0 : 1;
-    report_.points_read += scan->points.size();
-    report_.points_without_time += outcome.points_without_time;
+    CountPoints(outcome, scan->points.size());
+    if (options_.read_ahead) StartNext(std::move(outcome.scan));
     return true;
   }
   return false;

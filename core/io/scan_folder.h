@@ -63,6 +63,7 @@ class ScanFolder : public ScanSource {
     std::size_t index = 0;
     LidarScan scan;
     std::size_t points_without_time = 0;
+    std::size_t points_undeclared = 0;
     bool readable = false;
     std::string damage;
   };
@@ -71,6 +72,7 @@ class ScanFolder : public ScanSource {
   void Probe();
   void SetRegularStamps();
   void Describe(const std::filesystem::path& path);
+  void CountPoints(const Outcome& outcome, std::size_t points);
   Outcome Decode(std::size_t index, LidarScan reused) const;
   void StartNext(LidarScan reused);
 

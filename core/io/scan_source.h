@@ -24,15 +24,22 @@ struct ReadReport {
   std::size_t scans_left_out = 0;
   /// A part of the file is missing or broken, with an unknown number of scans in it.
   bool file_is_cut = false;
+  /// Topics of a bag that were chosen, and of which there is no message.
+  std::vector<std::string> topics_without_messages;
   std::size_t points_read = 0;
   /// Points among them that were disarmed (position NaN) because their time was impossible.
   std::size_t points_without_time = 0;
+  /// Not read: points behind those that the header of their scan declares.
+  std::size_t points_undeclared = 0;
   /// One sentence each, with file and numbers.
   std::vector<std::string> warnings;
 
+  /// More than 5 % of the points that are there were not read, as no header declares them.
+  bool MissesPoints() const { return 19 * points_undeclared > points_read; }
   /// True if the result rests on a part of the input only: exit code 3.
   bool IsPartial() const {
-    return file_is_cut || scans_damaged + scans_skipped + scans_left_out > 0;
+    return file_is_cut || scans_damaged + scans_skipped + scans_left_out > 0 || MissesPoints() ||
+           !topics_without_messages.empty();
   }
 };
 

@@ -60,6 +60,7 @@ Json InputJson(const RunSummary& s) {
             {"odd_point_times", s.times.odd_point_times},
             {"unseen_at_the_start", s.times.before_first_pose},
             {"unseen_at_the_end", s.times.Unseen()}}},
+          {"topics_without_messages", s.read.topics_without_messages},
           {"clock_steps", s.times.clock_steps},
           {"points",
            {{"received", s.points.received},
@@ -69,7 +70,8 @@ Json InputJson(const RunSummary& s) {
             {"too_far", s.points.too_far},
             {"too_late", s.points.too_late},
             {"wrong_time", s.points.wrong_time},
-            {"without_time", s.read.points_without_time}}}};
+            {"without_time", s.read.points_without_time},
+            {"undeclared", s.read.points_undeclared}}}};
 }
 
 Json FlaggedJson(const PoseFlags& flags) {

@@ -106,6 +106,13 @@ void RunSummary::AddDamage(std::vector<std::string>* parts) const {
     parts->push_back(CountOf(read.scans_left_out, "scan is", "scans are") +
                      " left out, as the others are of another format");
   }
+  for (const std::string& topic : read.topics_without_messages) {
+    parts->push_back("topic " + topic + " has no message");
+  }
+  if (read.MissesPoints()) {
+    parts->push_back(CountOf(read.points_undeclared, "point") +
+                     " behind those that the headers of the scans declare were not read");
+  }
   if (ShareWithWrongTimes() > kSizeableShare) {
     parts->push_back(std::to_string(std::lround(100.0 * ShareWithWrongTimes())) +
                      " % of the points were dropped because of their times (" +

@@ -69,6 +69,22 @@ TEST_F(TrajloRunTest, ScansOfAnotherFormatAreThreeAndNamed) {
   EXPECT_EQ(RunJson()["input"]["scans"]["left_out"], 2);
 }
 
+TEST_F(TrajloRunTest, MissingNumbersAreWhatAPauseIsInABag) {
+  RoomRecording room;
+  room.scans = 40;
+  room.speed_m_per_s = 0.0;
+  room.Write(input());
+  fs::remove(temp_ / "in/timestamps.txt");
+  fs::remove(RoomRecording::File(input(), 20));
+  const Outcome one = Run();
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(one.err, HasSubstr("1 scan is missing, between 000019.pcd and 000021.pcd"));
+  for (int i = 15; i < 30; ++i) fs::remove(RoomRecording::File(input(), i));
+  const Outcome many = Run({"--overwrite"});
+  EXPECT_EQ(many.exit_code, 3);
+  EXPECT_THAT(many.err, HasSubstr("nothing was measured"));
+}
+
 TEST_F(TrajloRunTest, AScanOfNansIsCountedAndBridged) {
   const RoomRecording room;
   room.Write(input());

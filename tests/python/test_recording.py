@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Readers as iterators: what they give, and what they say about damage."""
+import contextlib
+import sqlite3
 import threading
 import unittest
 import warnings
@@ -74,6 +76,30 @@ class RecordingTest(FolderTest):
         self.assertTrue(0 < len(scans) < 6)
         self.assertTrue(recording.report()["is_partial"])
         self.assertTrue(recording.report()["warnings"])
+
+    def test_scans_of_another_format_are_counted(self):
+        path = self.simulated()
+        (path / "timestamps.txt").unlink()
+        for scan in sorted((path / "scans").glob("*.pcd"))[-2:]:
+            scan.rename(scan.with_suffix(".ply"))
+        recording = trajlo.open(path)
+        with self.assertWarnsRegex(trajlo.PartialInputWarning, "left out: 2"):
+            self.assertEqual(len(list(recording)), 4)
+        self.assertEqual(recording.report()["scans_left_out"], 2)
+
+    def test_a_topic_without_a_message_is_named(self):
+        bag = self.simulated("bagged", 0.6, "--format=bag") / "recording.bag"
+        database = self.folder / "recording.db3"
+        run_command("trajlo_convert", bag, database)
+        with contextlib.closing(sqlite3.connect(database)) as file, file:
+            (_, topic, *others), = file.execute(
+                "SELECT * FROM topics WHERE type LIKE '%PointCloud2'").fetchall()
+            file.execute(f"INSERT INTO topics VALUES (99, '/silent'{', ?' * len(others)})", others)
+        recording = trajlo.open(database, {"input.topics": [topic, "/silent"],
+                                           "sensor.T_body_lidar": [{}, {}]})
+        with self.assertWarnsRegex(trajlo.PartialInputWarning, "no message of /silent"):
+            self.assertEqual(len(list(recording)), 6)
+        self.assertEqual(recording.report()["topics_without_messages"], ["/silent"])
 
     def test_warnings_can_be_errors(self):
         bag = self.simulated("bagged", 0.6, "--format=bag") / "recording.bag"

@@ -46,9 +46,12 @@ class Reader {
     dict["scans_read"] = report.scans_read;
     dict["scans_damaged"] = report.scans_damaged;
     dict["scans_skipped"] = report.scans_skipped;
+    dict["scans_left_out"] = report.scans_left_out;
     dict["file_is_cut"] = report.file_is_cut;
+    dict["topics_without_messages"] = report.topics_without_messages;
     dict["points_read"] = report.points_read;
     dict["points_without_time"] = report.points_without_time;
+    dict["points_undeclared"] = report.points_undeclared;
     dict["warnings"] = report.warnings;
     dict["is_partial"] = report.IsPartial();
     return dict;

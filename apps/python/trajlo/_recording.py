@@ -13,6 +13,18 @@ Paths = Union[str, os.PathLike, Sequence[Union[str, os.PathLike]]]
 _PRINTED_WARNINGS = 10
 
 
+def _unread(report: Dict[str, Any]) -> str:
+    parts = [f"scans missing: {report['scans_skipped']}", f"damaged: {report['scans_damaged']}"]
+    if report["scans_left_out"]:
+        parts.append(f"left out: {report['scans_left_out']}")
+    if report["points_undeclared"]:
+        parts.append(f"points that no header declares: {report['points_undeclared']}")
+    parts += [f"no message of {topic}" for topic in report["topics_without_messages"]]
+    if report["file_is_cut"]:
+        parts.append("and a part of the file is missing or broken")
+    return f"a part of the recording could not be read: {', '.join(parts)}; report() says more"
+
+
 class Recording:
     """The scans of a recording; each iteration begins anew. See open()."""
 
@@ -35,11 +47,7 @@ class Recording:
         for text in report["warnings"][:_PRINTED_WARNINGS]:
             warnings.warn(text, TrajloWarning, stacklevel=2)
         if report["is_partial"]:
-            warnings.warn(
-                "a part of the recording could not be read: scans missing: "
-                f"{report['scans_skipped']}, damaged: {report['scans_damaged']}"
-                + (", and a part of the file is missing or broken" if report["file_is_cut"] else "")
-                + "; report() says more", PartialInputWarning, stacklevel=2)
+            warnings.warn(_unread(report), PartialInputWarning, stacklevel=2)
 
     def __len__(self) -> int:
         """The scans that the recording lists, broken ones included."""
@@ -51,7 +59,13 @@ class Recording:
         return self._newest.description
 
     def report(self) -> Dict[str, Any]:
-        """What the newest iteration has met so far: scans read, damaged, skipped; warnings."""
+        """What the newest iteration has met so far.
+
+        scans_listed, scans_read, scans_damaged (in part), scans_skipped (nothing could be read),
+        scans_left_out (files of another format); file_is_cut, topics_without_messages;
+        points_read, points_without_time, points_undeclared (not read: no header declares them);
+        warnings, a sentence each; is_partial: trajlo_run would end with 3
+        """
         return self._newest.report()
 
     def __repr__(self) -> str:

@@ -36,22 +36,26 @@ struct Layout {
   }
 };
 
-/// What is said of data that hold more points than are declared; empty if they do not. Rows are
-/// padded to whole words or lines of a cache, not by many whole points.
-std::string TellOfMoreData(const Layout& layout) {
+/// How many points the data hold behind those declared. Rows are padded to whole words or lines of
+/// a cache, not by many whole points.
+std::uint64_t UndeclaredPoints(const Layout& layout) {
   constexpr std::uint64_t kMostPadding = 128;
-  if (layout.point_step == 0) return "";
+  if (layout.point_step == 0) return 0;
   const bool padded = layout.HasPaddedRows();
   const std::uint64_t rest_of_row = padded ? layout.row_step - layout.RowBytes() : 0;
   const bool is_padding = rest_of_row < std::max(kMostPadding, layout.point_step) ||
                           rest_of_row % layout.point_step != 0;
   const std::uint64_t bytes =
       is_padding && padded ? layout.height * layout.row_step : layout.Points() * layout.point_step;
-  if (layout.data_declared < bytes + layout.point_step) return "";
+  if (layout.data_there < bytes + layout.point_step) return 0;
+  return layout.data_there / layout.point_step - layout.Points();
+}
+
+std::string TellOfMoreData(const Layout& layout) {
   return std::to_string(layout.height) + " x " + std::to_string(layout.width) + " points of " +
          std::to_string(layout.point_step) + " bytes are declared, and the " +
-         std::to_string(layout.data_declared) + " bytes of data hold " +
-         std::to_string(layout.data_declared / layout.point_step) +
+         std::to_string(layout.data_there) + " bytes of data hold " +
+         std::to_string(layout.data_there / layout.point_step) +
          ": only those declared are read, so check height and width where this was written";
 }
 
@@ -145,7 +149,8 @@ bool DecodePointCloud2(Encoding encoding, FileBytes* bytes, CloudMessage* cloud,
                    std::to_string(table.count) + " whole ones in the " +
                    std::to_string(layout.data_there) + " bytes of data";
   }
-  *remark = TellOfMoreData(layout);
+  table.undeclared = static_cast<std::size_t>(UndeclaredPoints(layout));
+  if (table.undeclared > 0) *remark = TellOfMoreData(layout);
   AddColumns(layout, &table, remark);
   table.bytes = std::exchange(*bytes, {});
   cloud->stamp_ns = header.stamp_ns;

@@ -77,8 +77,16 @@ void CloudRecording::SelectStreams(const RecordingOptions& options, std::size_t 
     const std::size_t id = first_lidar_id + streams_.size();
     streams_.push_back(
         {topic, {}, Nanoseconds(options.clock_offset_s.Of(id)), static_cast<int>(id), false});
-    report_.scans_listed += reader_->topics()[topic].messages;
+    NoteTopic(reader_->topics()[topic], id);
   }
+}
+
+void CloudRecording::NoteTopic(const Topic& topic, std::size_t lidar_id) {
+  report_.scans_listed += topic.messages;
+  if (topic.messages > 0) return;
+  report_.topics_without_messages.push_back(topic.name);
+  report_.warnings.push_back(path_.string() + ": topic " + topic.name + " has no message: LiDAR " +
+                             std::to_string(lidar_id) + " is not used");
 }
 
 /// Decides the time convention of each LiDAR from its first messages.
@@ -122,8 +130,9 @@ void CloudRecording::Describe() {
     description_ += (description_.empty() ? "" : "\n") + path_.string() + ": lidar " +
                     std::to_string(stream.lidar_id) + " is " + topic.name + " (" + topic.type +
                     "), " + CountOf(topic.messages, "message") +
-                    (topic.remark.empty() ? "" : "; " + topic.remark) +
-                    "\npoint times: " + stream.convention.evidence;
+                    (topic.remark.empty() ? "" : "; " + topic.remark);
+    description_ +=
+        topic.messages == 0 ? ": it is not used" : "\npoint times: " + stream.convention.evidence;
   }
 }
 
@@ -143,6 +152,7 @@ CloudRecording::Outcome CloudRecording::Decode(LidarScan reused) {
                        "', all its points get the stamp";
     }
     const auto stamp_ns = stream->stamp_is_recorded ? message_.recorded_ns : message_.stamp_ns;
+    outcome.points_undeclared = message_.table.undeclared;
     outcome.points_without_time =
         DecodeScan(path_, message_.table, convention, stamp_ns, &outcome.scan);
     ShiftTimes(stream->clock_offset_ns, &outcome.scan);
@@ -178,6 +188,7 @@ bool CloudRecording::Next(LidarScan* scan) {
     report_.scans_damaged += outcome.damage.empty() ? 0 : 1;
     report_.points_read += scan->points.size();
     report_.points_without_time += outcome.points_without_time;
+    report_.points_undeclared += outcome.points_undeclared;
     return true;
   }
   return false;

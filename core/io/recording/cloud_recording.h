@@ -58,12 +58,14 @@ class CloudRecording : public ScanSource {
   struct Outcome {
     LidarScan scan;
     std::size_t points_without_time = 0;
+    std::size_t points_undeclared = 0;
     bool found = false;
     bool readable = false;
     std::string damage;
   };
 
   void SelectStreams(const RecordingOptions& options, std::size_t first_lidar_id);
+  void NoteTopic(const Topic& topic, std::size_t lidar_id);
   void Probe(CloudMessageReader* reader, const RecordingOptions& options);
   void Describe();
   Outcome Decode(LidarScan reused);

@@ -36,6 +36,7 @@ bool Excerpt::Next(LidarScan* scan) {
     ++scans_;
     points_ += scan->points.size();
     points_without_time_ += last_without_time_;
+    points_undeclared_ += last_undeclared_;
   }
   UpdateReport();
   return found;
@@ -54,9 +55,12 @@ bool Excerpt::FindNext(LidarScan* scan) {
 }
 
 bool Excerpt::NextOfWhole(LidarScan* scan) {
-  const std::size_t before = whole_->report().points_without_time;
+  const ReadReport& report = whole_->report();
+  const std::size_t without_time = report.points_without_time;
+  const std::size_t undeclared = report.points_undeclared;
   const bool found = whole_->Next(scan);
-  last_without_time_ = whole_->report().points_without_time - before;
+  last_without_time_ = report.points_without_time - without_time;
+  last_undeclared_ = report.points_undeclared - undeclared;
   return found;
 }
 
@@ -65,6 +69,7 @@ void Excerpt::UpdateReport() {
   report_.scans_read = scans_;
   report_.points_read = points_;
   report_.points_without_time = points_without_time_;
+  report_.points_undeclared = points_undeclared_;
 }
 
 }  // namespace trajlo

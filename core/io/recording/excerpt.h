@@ -27,7 +27,8 @@ class Excerpt : public ScanSource {
   std::size_t size() const override { return whole_->size(); }
   const std::string& description() const override { return whole_->description(); }
   /// Of the whole recording, as far as it was read, but what is counted as read is what was handed
-  /// on. (Several inputs are each read one scan ahead, and so are their points without a time.)
+  /// on. (Several inputs are each read one scan ahead, and so are their points without a time and
+  /// those that are not declared.)
   const ReadReport& report() const override { return report_; }
 
  private:
@@ -46,7 +47,9 @@ class Excerpt : public ScanSource {
   std::map<int, Clock> clocks_;
   int beyond_ = 0;  ///< Scans in a row that lie behind the end.
   std::size_t scans_ = 0, points_ = 0, points_without_time_ = 0;  ///< Handed on.
-  std::size_t last_without_time_ = 0;  ///< Of the scan that was read last.
+  std::size_t points_undeclared_ = 0;                             ///< Of these scans.
+  /// Of the scan that was read last.
+  std::size_t last_without_time_ = 0, last_undeclared_ = 0;
   ReadReport report_;
 };
 

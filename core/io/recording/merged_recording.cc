@@ -57,6 +57,10 @@ void MergedRecording::UpdateReport() {
     report_.file_is_cut = report_.file_is_cut || part.file_is_cut;
     report_.points_read += part.points_read;
     report_.points_without_time += part.points_without_time;
+    report_.points_undeclared += part.points_undeclared;
+    report_.topics_without_messages.insert(report_.topics_without_messages.end(),
+                                           part.topics_without_messages.begin(),
+                                           part.topics_without_messages.end());
     for (; head.warnings < part.warnings.size(); ++head.warnings) {
       warnings.push_back(part.warnings[head.warnings]);
     }

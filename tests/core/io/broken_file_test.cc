@@ -76,6 +76,26 @@ TEST(BrokenFile, ATruncatedPlySaysWhatIsMissing) {
   EXPECT_THAT(table.damage, HasSubstr("40 vertices declared, 39 whole ones"));
 }
 
+TEST(BrokenFile, PointsBehindThoseThatTheHeaderDeclaresAreCounted) {
+  const TempFolder folder;
+  const auto half_of = [&](const std::string& fixture, const std::string& count) {
+    std::string text = testing::ReadFile(Fixture(fixture));
+    text.replace(text.find(count + " 40") + count.size(), 3, " 20");
+    return ReadPointFile(folder.Write("half" + fixture.substr(fixture.size() - 4), text));
+  };
+  for (const auto& [fixture, count] :
+       std::vector<std::pair<std::string, std::string>>{{"pypcd4_ascii.pcd", "POINTS"},
+                                                        {"plyfile_ascii.ply", "vertex"},
+                                                        {"plyfile_little.ply", "vertex"},
+                                                        {"plyfile_big.ply", "vertex"}}) {
+    EXPECT_EQ(ReadPointFile(Fixture(fixture)).undeclared, 0U) << fixture;
+    const PointTable table = half_of(fixture, count);
+    EXPECT_EQ(table.count, 20U) << fixture;
+    EXPECT_EQ(table.undeclared, 20U) << fixture;
+    EXPECT_EQ(table.damage, "") << fixture;
+  }
+}
+
 TEST(BrokenFile, ATruncatedKittiBinSaysHowMuchIsLeftOver) {
   const TempFolder folder;
   const std::string whole = testing::ReadFile(Fixture("numpy_kitti.bin"));

@@ -182,6 +182,23 @@ TEST(ScanFolder, DamagedScansAreHandedOnInPartAndUnreadableOnesAreSkipped) {
                                            HasSubstr("000004.pcd")));
 }
 
+TEST(ScanFolder, PointsThatNoHeaderDeclaresAreCountedAndToldOnce) {
+  const TempFolder folder;
+  WriteRecording(folder, "pypcd4_ascii.pcd", true);
+  std::string text = testing::ReadFile(Fixture("pypcd4_ascii.pcd"));
+  text.replace(text.find("POINTS 40"), 9, "POINTS 20");
+  folder.Write("scans/000002.pcd", text);
+  folder.Write("scans/000003.pcd", text);
+  ScanFolder recording(folder.path());
+  ReadAll(&recording);
+  EXPECT_EQ(recording.report().points_read, 160U);
+  EXPECT_EQ(recording.report().points_undeclared, 40U);
+  EXPECT_EQ(recording.report().scans_damaged, 0U);
+  EXPECT_TRUE(recording.report().IsPartial());
+  EXPECT_THAT(recording.report().warnings,
+              ElementsAre(HasSubstr("000002.pcd: the header declares 20 points, and 20 more")));
+}
+
 TEST(ScanFolder, AFileThatVanishesAfterTheStartIsSkipped) {
   const TempFolder folder;
   WriteRecording(folder, "pypcd4_binary.pcd", true);

@@ -263,6 +263,23 @@ TEST(RunSummary, SaysThatNothingWasMeasuredForLong) {
             "for 0.51 of 10.01 s nothing was measured, or the place was not found");
 }
 
+TEST(RunSummary, NamesTopicsWithoutAMessage) {
+  RunSummary s;
+  s.read.topics_without_messages = {"/b"};
+  EXPECT_EQ(s.Shortcomings(), "topic /b has no message");
+  EXPECT_EQ(nlohmann::json::parse(RunJson(s))["input"]["topics_without_messages"][0], "/b");
+}
+
+TEST(RunSummary, SaysThatHeadersDeclareTooFewPointsWhereTheyAreMoreThanALittle) {
+  RunSummary s;
+  s.read.points_read = 1900;
+  s.read.points_undeclared = 100;
+  EXPECT_EQ(s.Shortcomings(), "");
+  s.read.points_undeclared = 101;
+  EXPECT_THAT(s.Shortcomings(), HasSubstr("101 points behind those that the headers"));
+  EXPECT_EQ(nlohmann::json::parse(RunJson(s))["input"]["points"]["undeclared"], 101);
+}
+
 TEST(RunSummary, CountsOddStampsByReason) {
   RunSummary s;
   EXPECT_EQ(s.OddStamps(), "");

@@ -121,26 +121,27 @@ TEST(CloudDecoder, PaddingBehindTheLastRowMayBeMissing) {
 }
 
 TEST(CloudDecoder, DataThatHoldMorePointsThanAreDeclaredAreRemarked) {
-  const auto remark_of = [](const Cloud2& cloud2) {
+  const auto remark_of = [](const Cloud2& cloud2, std::size_t undeclared) {
     CloudMessage cloud;
     std::string remark;
     EXPECT_TRUE(Decode(kCloud2, cloud2.Bytes(), &cloud, &remark)) << remark;
+    EXPECT_EQ(cloud.table.undeclared, undeclared);
     return remark;
   };
   Cloud2 half;
   half.width = 2;
-  EXPECT_THAT(remark_of(half), HasSubstr("1 x 2 points of 8 bytes are declared, and the 32 bytes "
-                                         "of data hold 4"));
+  EXPECT_THAT(remark_of(half, 2), HasSubstr("1 x 2 points of 8 bytes are declared, and the 32 "
+                                            "bytes of data hold 4"));
   Cloud2 half_of_each_row;
   half_of_each_row.height = 2;
   half_of_each_row.width = 20;
   half_of_each_row.row_step = 40 * 8;
   half_of_each_row.data = std::string(2 * 40 * 8, '\0');
   half_of_each_row.data_size = 2 * 40 * 8;
-  EXPECT_THAT(remark_of(half_of_each_row), HasSubstr("hold 80"));
+  EXPECT_THAT(remark_of(half_of_each_row, 40), HasSubstr("hold 80"));
   Cloud2 padded = half_of_each_row;  // Rows of 64 bytes.
   padded.width = 36;
-  EXPECT_EQ(remark_of(padded), "");
+  EXPECT_EQ(remark_of(padded, 0), "");
 }
 
 TEST(CloudDecoder, FieldsThatCannotBeReadAreIgnoredWithARemark) {

@@ -50,6 +50,7 @@ TEST(CloudRecording, TakesTheOnlyTopicWithCloudsAndIgnoresOthers) {
   EXPECT_EQ(recording->size(), 6u);
   EXPECT_THAT(recording->description(), HasSubstr("lidar 0 is /cloud"));
   EXPECT_EQ(ReadAll(recording.get()).size(), 6u);
+  EXPECT_THAT(recording->report().topics_without_messages, IsEmpty());
   EXPECT_EQ(recording->report().points_read, 60u);
   EXPECT_FALSE(recording->report().IsPartial());
 }
@@ -62,6 +63,20 @@ TEST(CloudRecording, SeveralCloudsWithoutAChoiceAreAnErrorThatNamesThem) {
   RecordingOptions options;
   options.topics = {"/cloud_c"};
   EXPECT_THAT(ErrorOf(fake, options), HasSubstr("no topic '/cloud_c'"));
+}
+
+TEST(CloudRecording, ATopicWithoutAMessageIsToldToBeUnused) {
+  RecordingOptions options;
+  options.topics = {"/cloud_a", "/cloud_b"};
+  const auto recording =
+      Open(FakeClouds({"/cloud_a", "/cloud_b"}, RegularMessages(6, 2 * kMs)), options);
+  EXPECT_THAT(recording->description(),
+              AllOf(HasSubstr("lidar 1 is /cloud_b"), HasSubstr("0 messages: it is not used")));
+  EXPECT_EQ(ReadAll(recording.get()).size(), 6u);
+  EXPECT_THAT(recording->report().warnings,
+              ElementsAre(HasSubstr("topic /cloud_b has no message: LiDAR 1 is not used")));
+  EXPECT_THAT(recording->report().topics_without_messages, ElementsAre("/cloud_b"));
+  EXPECT_TRUE(recording->report().IsPartial());
 }
 
 TEST(CloudRecording, CloudsThatAreRegisteredAlreadyAreTold) {
@@ -246,7 +261,8 @@ TEST(Excerpt, CountsWhatItHandsOnAndNotWhatIsReadAroundIt) {
   EXPECT_EQ(excerpt.report().points_read, points);
 }
 
-/// A scan of ten points every 100 ms; those of the first five have no time.
+/// A scan of ten points every 100 ms; those of the first five have no time, and as many follow that
+/// are not declared.
 class LateClock final : public ScanSource {
  public:
   bool Next(LidarScan* scan) override {
@@ -254,6 +270,7 @@ class LateClock final : public ScanSource {
     scan->stamp_ns = kStart + static_cast<std::int64_t>(report_.scans_read) * 100 * kMs;
     scan->points.assign(10, {});
     report_.points_without_time += ++report_.scans_read <= 5 ? 10 : 0;
+    report_.points_undeclared = report_.points_without_time;
     return true;
   }
   std::size_t size() const override { return 30; }
@@ -265,13 +282,15 @@ class LateClock final : public ScanSource {
   ReadReport report_;
 };
 
-TEST(Excerpt, PointsWithoutTimesThatItLeavesOutAreNotCounted) {
+TEST(Excerpt, OddPointsOfScansThatItLeavesOutAreNotCounted) {
   Excerpt before(std::make_unique<LateClock>(), 0, 300 * kMs);
   EXPECT_EQ(ReadAll(&before).size(), 3u);
   EXPECT_EQ(before.report().points_without_time, 30u);
+  EXPECT_EQ(before.report().points_undeclared, 30u);
   Excerpt after(std::make_unique<LateClock>(), 500 * kMs, 300 * kMs);
   EXPECT_EQ(ReadAll(&after).size(), 3u);
   EXPECT_EQ(after.report().points_without_time, 0u);
+  EXPECT_EQ(after.report().points_undeclared, 0u);
 }
 
 TEST(Excerpt, IsWhereItIsInSpiteOfWrongStamps) {
