@@ -3,6 +3,8 @@
 
 #include <gflags/gflags.h>
 
+#include <filesystem>
+
 #include "apps/config_names.h"
 #include "apps/read_flags.h"
 #include "apps/split_at_commas.h"
@@ -27,6 +29,12 @@ std::string ValueOf(const gflags::CommandLineFlagInfo& flag) {
     list += (list.empty() ? "" : ", ") + Quoted(part);
   }
   return "[" + list + "]";
+}
+
+/// As the folder may be another one where config.yaml of the result is used.
+void MakePathsAbsolute(RunConfig* config) {
+  std::filesystem::path& file = config->input.stamps_file;
+  if (!file.empty()) file = std::filesystem::absolute(file);
 }
 
 }  // namespace
@@ -57,6 +65,7 @@ RunConfig LoadConfig(const std::string& files, const std::string& settings,
     throw UsageError(name + "=" + flag.current_value + " sets " + shorthand.key +
                      ", and --set gives it another value");
   }
+  MakePathsAbsolute(&config);
   return config;
 }
 

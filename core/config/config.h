@@ -24,6 +24,7 @@ struct RunConfig {
 /// Sets what the YAML file says and leaves all else as it is, so that several files can be loaded
 /// one over the other. Throws ConfigError with file, line and column on an unreadable file, an
 /// unknown key (naming the nearest), a repeated key, a wrong type, and a value out of range.
+/// Relative paths that it names are below its own folder, and become absolute.
 void LoadConfigFile(const std::filesystem::path& path, RunConfig* config);
 
 /// The same for what a run wrote down of itself, maybe by an older build: returns the unknown keys

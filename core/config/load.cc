@@ -19,12 +19,14 @@ namespace {
 /// Walks nested maps and sets the options whose keys it meets.
 class Loader {
  public:
-  /// Without `with_places`, messages name no line: the text is a part of a command line. Unknown
-  /// keys are errors, unless there is a list that takes them.
-  Loader(std::string name, bool with_places, RunConfig* config,
+  /// Without `with_places`, messages name no line: the text is a part of a command line. Relative
+  /// paths are below `folder`, if there is one. Unknown keys are errors, unless there is a list
+  /// that takes them.
+  Loader(std::string name, bool with_places, RunConfig* config, std::filesystem::path folder = {},
          std::vector<std::string>* unknown = nullptr)
       : name_(std::move(name)),
         with_places_(with_places),
+        folder_(std::move(folder)),
         options_(BindOptions(config)),
         unknown_(unknown) {}
 
@@ -37,6 +39,7 @@ class Loader {
     if (!seen_.insert(key).second) Fail(key_node, "'" + key + "' is set twice");
     try {
       SetOption(value, *option);
+      Locate(*option);
     } catch (const ValueError& error) {
       throw ConfigError(Where(error), "'" + key + "' " + error.what);
     }
@@ -66,6 +69,12 @@ class Loader {
   std::string Where(const ValueError& at) const {
     if (!with_places_ || at.line == 0) return name_;
     return name_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
+  }
+
+  void Locate(const Option& option) const {
+    const auto* text = std::get_if<TextField>(&option.field);
+    if (text == nullptr || !text->is_path || text->get().empty()) return;
+    text->set((folder_ / text->get()).string());
   }
 
   const Option* Find(const std::string& key) const {
@@ -119,6 +128,7 @@ class Loader {
 
   std::string name_;
   bool with_places_;
+  std::filesystem::path folder_;
   std::vector<Option> options_;
   std::vector<std::string>* unknown_;
   std::set<std::string> seen_;
@@ -197,17 +207,25 @@ YAML::Node OnlyDocument(const std::string& yaml, const std::string& name) {
 }
 
 void LoadYaml(const std::string& yaml, const std::string& name, bool with_places, RunConfig* config,
+              const std::filesystem::path& folder = {},
               std::vector<std::string>* unknown = nullptr) {
   const YAML::Node root = OnlyDocument(yaml, name);
   // Work on a copy: a file with an error changes nothing.
   RunConfig loaded = *config;
-  Loader loader(name, with_places, &loaded, unknown);
+  Loader loader(name, with_places, &loaded, folder, unknown);
   if (root.IsNull()) return;
   if (!root.IsMap()) {
     loader.Fail(root, "expected sections with keys, such as 'window: {segments: 4}'");
   }
   loader.Walk("", root);
   *config = loaded;
+}
+
+/// Where the file is, also when the current folder is another one.
+std::filesystem::path FolderOf(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(file, error);
+  return (error ? file : whole).parent_path();
 }
 
 /// A comma begins another setting, so that of "a=1,5" a 5 is left.
@@ -230,12 +248,12 @@ void LoadConfigValues(const std::string& yaml, const std::string& name, RunConfi
 }
 
 void LoadConfigFile(const std::filesystem::path& path, RunConfig* config) {
-  LoadConfigText(ReadConfigFile(path), path.string(), config);
+  LoadYaml(ReadConfigFile(path), path.string(), true, config, FolderOf(path));
 }
 
 std::vector<std::string> LoadRecordedConfig(const std::filesystem::path& path, RunConfig* config) {
   std::vector<std::string> unknown;
-  LoadYaml(ReadConfigFile(path), path.string(), true, config, &unknown);
+  LoadYaml(ReadConfigFile(path), path.string(), true, config, FolderOf(path), &unknown);
   return unknown;
 }
 

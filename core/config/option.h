@@ -29,6 +29,7 @@ struct RealField {
 struct TextField {
   std::function<std::string()> get;
   std::function<void(const std::string&)> set;
+  bool is_path = false;
 };
 /// One of a few names; `get` and `set` work on the index of the name.
 struct ChoiceField {

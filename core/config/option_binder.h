@@ -45,7 +45,8 @@ class OptionBinder {
   void operator()(OptionFor audience, const char* name, std::filesystem::path& value,
                   const char* doc) {
     Push(audience, name, doc,
-         TextField{[&value] { return value.string(); }, [&value](const auto& s) { value = s; }});
+         TextField{[&value] { return value.string(); }, [&value](const auto& s) { value = s; },
+                   true});
   }
 
   void operator()(OptionFor audience, const char* name, std::vector<SE3>& value, const char* doc) {

@@ -5,6 +5,7 @@
 namespace trajlo::testing {
 namespace {
 
+namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -160,6 +161,27 @@ TEST_F(TrajloRunTest, QuietPrintsNothingWhenAllIsWell) {
   const Outcome outcome = Run({"--quiet"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(TrajloRunTest, StampsAreBesideTheConfigurationOrBelowTheCurrentFolder) {
+  RoomRecording room;
+  room.scans = 4;
+  room.Write(temp_ / "in");
+  fs::create_directories(temp_ / "mine");
+  fs::rename(temp_ / "in/timestamps.txt", temp_ / "mine/stamps.txt");
+  WriteFile(temp_ / "mine/my.yaml", "input: {stamps_file: stamps.txt}\n");
+  const std::string whole = (temp_ / "mine/stamps.txt").string();
+  const auto run_with = [&](const std::string& flag) {
+    const Outcome outcome = Run({flag, "--overwrite"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string config = ReadFile(Result("config.yaml")), key = "stamps_file: \"";
+    const std::size_t begin = config.find(key) + key.size();
+    const fs::path used = config.substr(begin, config.find('"', begin) - begin);
+    EXPECT_TRUE(used.is_absolute() && fs::equivalent(used, whole)) << used;
+  };
+  run_with("--config=" + (temp_ / "mine/my.yaml").string());
+  run_with("--config=" + fs::relative(temp_ / "mine/my.yaml").string());
+  run_with("--set=input.stamps_file=" + fs::relative(whole).string());
 }
 
 }  // namespace

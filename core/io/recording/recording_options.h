@@ -80,7 +80,8 @@ struct RecordingOptions {
     d(OptionFor::kUsers, "clock_offset_s", clock_offset_s, Range<double>{-1e9, 1e9},
       "Added to the stamps and times of a LiDAR whose clock is late by this much.");
     d(OptionFor::kUsers, "stamps_file", stamps_file,
-      "File with one stamp a line; empty searches for timestamps.txt or times.txt.");
+      "File with one stamp a line; empty searches for timestamps.txt or times.txt. A relative path "
+      "is below the folder of the configuration that names it; with --set, below the current one.");
     d(OptionFor::kUsers, "scan_period_s", scan_period_s, Range<double>{1e-3, 100.0},
       "Time between scans when nothing else gives stamps.");
     d(OptionFor::kUsers, "velodyne_model", velodyne_model, VelodyneModelNames(),

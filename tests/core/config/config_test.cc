@@ -125,6 +125,25 @@ TEST(Config, MissingFileAndFolderAreErrors) {
   }
 }
 
+TEST(Config, RelativePathsAreBelowTheFolderOfTheFileThatNamesThem) {
+  const testing::TempFolder folder;
+  const auto stamps_of = [&](const std::string& first, const std::string& second) {
+    RunConfig config;
+    config.input.stamps_file = "of_before.txt";
+    for (const std::string& text : {first, second}) {
+      std::ofstream(folder / "my.yaml") << text;
+      LoadConfigFile(folder / "my.yaml", &config);
+    }
+    return config.input.stamps_file;
+  };
+  const std::string names_it = "input: {stamps_file: stamps.txt}";
+  EXPECT_EQ(stamps_of(names_it, ""), folder / "stamps.txt");
+  EXPECT_EQ(stamps_of("input: {stamps_file: /a/stamps.txt}", ""), "/a/stamps.txt");
+  EXPECT_EQ(stamps_of("", ""), "of_before.txt");
+  EXPECT_EQ(stamps_of(names_it, "input: {stamps_file: ''}"), "");
+  EXPECT_EQ(Overridden("input.stamps_file=stamps.txt").input.stamps_file, "stamps.txt");
+}
+
 TEST(Config, FileWithAnErrorChangesNothing) {
   RunConfig config;
   EXPECT_THROW(LoadConfigText("window: {segments: 9}\nmap: {kind: x}", "my.yaml", &config),
