@@ -105,13 +105,35 @@ class InspectedTest(unittest.TestCase):
 
     def test_wrong_weights_are_refused(self):
         for weights in ({"sigma_m": 0.0}, {"prior_factor": -1.0}, {"point_weights": [1.0, 2.0]},
-                        {"kernel_m": float("nan")}, {"max_iterations": 0}, {"point_weights": []}):
+                        {"kernel_m": float("nan")}, {"max_iterations": 0}, {"point_weights": []},
+                        {"max_iterations": 10**30}):
             with self.assertRaises(trajlo.InputError, msg=weights):
                 self.window.solve(**weights)
         with self.assertRaisesRegex(trajlo.ConfigError, "^kernel: must be one of .* 'huber'"):
             self.window.solve(kernel="hubber")
         with self.assertRaisesRegex(trajlo.ConfigError, "^solver: must be one of ceres"):
             self.window.solve(solver="newton")
+
+    def test_a_value_of_another_type_is_refused_by_name(self):
+        for name in ("sigma_m", "kernel_m", "translation_m2_s3", "rotation_rad2_s3",
+                     "prior_factor"):
+            for value, found in (("1", "str"), ([1.0], "list"), (True, "bool"), (1j, "complex")):
+                with self.assertRaisesRegex(
+                        TypeError, f"^{name}: must be a number or None, found {found}$"):
+                    self.window.solve(**{name: value})
+        for name in ("kernel", "solver"):
+            with self.assertRaisesRegex(TypeError, f"^{name}: must be a str or None, found int$"):
+                self.window.solve(**{name: 3})
+        for value, found in (("9", "str"), (9.0, "float"), (None, "NoneType"), (True, "bool")):
+            with self.assertRaisesRegex(
+                    TypeError, f"^max_iterations: must be a whole number, found {found}$"):
+                self.window.solve(max_iterations=value)
+
+    def test_numbers_of_numpy_are_numbers(self):
+        usual = self.window.solve(sigma_m=0.5, max_iterations=3)
+        same = self.window.solve(sigma_m=np.float32(0.5), max_iterations=np.int64(3))
+        np.testing.assert_array_equal(same.poses, usual.poses)
+        self.assertEqual(self.window.solve(sigma_m=1).index, usual.index)
 
     def test_a_misspelt_argument_comes_with_the_nearest(self):
         with self.assertRaisesRegex(TypeError, "has no argument 'sigma'; did you mean 'sigma_m'"):

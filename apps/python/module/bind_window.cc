@@ -9,6 +9,7 @@
 #include "apps/python/module/bindings.h"
 #include "apps/python/module/errors.h"
 #include "apps/python/module/inspected_window.h"
+#include "apps/python/module/values.h"
 #include "core/config/config_error.h"
 
 namespace trajlo::python {
@@ -124,21 +125,23 @@ RunConfig With(RunConfig config, const char* argument, const std::string& key,
   return config;
 }
 
-InspectedWindow Solve(const InspectedWindow& inspected, const std::optional<double>& sigma_m,
-                      const std::optional<std::string>& kernel,
-                      const std::optional<double>& kernel_m,
-                      const std::optional<double>& translation_m2_s3,
-                      const std::optional<double>& rotation_rad2_s3,
-                      const std::optional<double>& prior_factor, const py::object& point_weights,
-                      const std::optional<std::string>& solver, int max_iterations,
+InspectedWindow Solve(const InspectedWindow& inspected, const py::object& sigma_m,
+                      const py::object& kernel, const py::object& kernel_m,
+                      const py::object& translation_m2_s3, const py::object& rotation_rad2_s3,
+                      const py::object& prior_factor, const py::object& point_weights,
+                      const py::object& solver, const py::object& max_iterations,
                       const py::kwargs& unknown) {
   RefuseUnknown(unknown, "solve()",
                 {"sigma_m", "kernel", "kernel_m", "translation_m2_s3", "rotation_rad2_s3",
                  "prior_factor", "point_weights", "solver", "max_iterations"});
-  Reweighing reweighing{sigma_m,          {},           kernel_m, translation_m2_s3,
-                        rotation_rad2_s3, prior_factor, {}};
-  if (kernel) {
-    reweighing.kernel = With(inspected.config(), "kernel", "expert.registration.kernel", kernel)
+  Reweighing reweighing;
+  reweighing.sigma_m = ReadReal(sigma_m, "sigma_m");
+  reweighing.kernel_m = ReadReal(kernel_m, "kernel_m");
+  reweighing.translation_m2_s3 = ReadReal(translation_m2_s3, "translation_m2_s3");
+  reweighing.rotation_rad2_s3 = ReadReal(rotation_rad2_s3, "rotation_rad2_s3");
+  reweighing.prior_factor = ReadReal(prior_factor, "prior_factor");
+  if (const auto name = ReadText(kernel, "kernel")) {
+    reweighing.kernel = With(inspected.config(), "kernel", "expert.registration.kernel", name)
                             .odometry.registration.kernel;
   }
   if (!point_weights.is_none()) {
@@ -149,12 +152,16 @@ InspectedWindow Solve(const InspectedWindow& inspected, const std::optional<doub
                       std::to_string(inspected.graph().points.size()) + " points");
     }
   }
-  if (max_iterations < 1) throw DataError("max_iterations: must be at least 1");
+  const int most_iterations = ReadWhole(max_iterations, "max_iterations");
+  if (most_iterations < 1 || most_iterations > 1'000'000) {
+    throw DataError("max_iterations: must be from 1 to 1000000");
+  }
   const SolverKind kind =
-      With(inspected.config(), "solver", "solver.kind", solver).odometry.solver.kind;
+      With(inspected.config(), "solver", "solver.kind", ReadText(solver, "solver"))
+          .odometry.solver.kind;
   try {
     const py::gil_scoped_release release;
-    return inspected.Solve(reweighing, kind, max_iterations);
+    return inspected.Solve(reweighing, kind, most_iterations);
   } catch (const std::invalid_argument& error) {
     throw DataError(error.what());
   }
@@ -179,7 +186,8 @@ point_weights      (N,), in the order of `points`; 0 leaves a point out
 solver             "ceres" or "gauss_newton"
 max_iterations     it ends before that when the steps are below 1e-9 m and 1e-10 rad
 
-Raises InputError, ConfigError, and EstimatorError where there is no finite solution.)";
+Raises TypeError for a value of another type, InputError, ConfigError, and EstimatorError where there
+is no finite solution.)";
 
 }  // namespace
 
