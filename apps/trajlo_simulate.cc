@@ -3,11 +3,8 @@
 #include <gflags/gflags.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -18,14 +15,11 @@
 
 #include "apps/command.h"
 #include "apps/interrupt.h"
+#include "apps/simulate/write_recording.h"
 #include "apps/usage_error.h"
-#include "core/io/conversion/pcd_folder_writer.h"
 #include "core/io/conversion/scan_bag_writer.h"
-#include "core/io/format_text.h"
 #include "core/options/did_you_mean.h"
 #include "core/options/edit_distance.h"
-#include "core/simulation/recording_writer.h"
-#include "core/simulation/scan_stream.h"
 #include "core/simulation/scenario.h"
 #include "core/simulation/scenario_parameters.h"
 #include "core/simulation/simulator.h"
@@ -49,7 +43,6 @@ DEFINE_bool(overwrite, false, "replace what is in the output folder");
 
 namespace {
 
-namespace fs = std::filesystem;
 using trajlo::ExitCode;
 using trajlo::UsageError;
 using trajlo::simulation::Scenario;
@@ -207,54 +200,6 @@ void ListParameters(Scenario scenario) {
   }
 }
 
-/// Makes sure that nothing is lost, and that nothing of an older recording stays behind.
-void PrepareOutput(const fs::path& output) {
-  std::error_code error;
-  if (fs::exists(output, error) && !fs::is_empty(output, error)) {
-    if (!FLAGS_overwrite) {
-      throw std::runtime_error("'" + output.string() +
-                               "' is not empty; choose another folder or add --overwrite");
-    }
-    trajlo::RemoveScans(output);
-    fs::remove_all(output / "velodyne", error);
-    for (const char* old : {"recording.bag", "times.txt", "poses.txt"}) {
-      fs::remove(output / old, error);
-    }
-  }
-}
-
-/// False if a signal ended it early: what is written goes until then.
-bool Write(const trajlo::simulation::Simulator& simulator,
-           const std::optional<trajlo::simulation::BagFormat>& bag, const std::atomic<bool>& stop) {
-  const auto begin = std::chrono::steady_clock::now();
-  trajlo::simulation::RecordingWriter writer(simulator, FLAGS_output, bag);
-  trajlo::simulation::ScanStream stream(simulator, FLAGS_threads);
-  trajlo::simulation::SimulatedScan scan;
-  bool is_whole = false;
-  while (!stop) {
-    is_whole = !stream.Next(&scan);
-    if (is_whole) break;
-    writer.Write(scan);
-  }
-  writer.Finish(is_whole);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  std::printf(
-      "%s: %.1f s, %s, %.2f million points in %s\n%.1f s to simulate, %.2f million "
-      "points a second\n",
-      simulator.scenario().name.c_str(),
-      is_whole ? simulator.scenario().duration_s : writer.seconds(),
-      trajlo::CountOf(writer.scans(), "scan").c_str(), 1e-6 * static_cast<double>(writer.points()),
-      FLAGS_output.c_str(), seconds, 1e-6 * static_cast<double>(writer.points()) / seconds);
-  if (!is_whole) {
-    std::fprintf(stderr,
-                 "trajlo_simulate: a signal ended it early; what was simulated until then, %s, "
-                 "is a complete, shorter recording\n",
-                 trajlo::CountOf(writer.scans(), "scan").c_str());
-  }
-  return is_whole;
-}
-
 /// A recording without a scan is none.
 void RequireScans(const trajlo::simulation::Simulator& simulator) {
   for (std::size_t id = 0; id < simulator.scenario().rig.size(); ++id) {
@@ -282,8 +227,9 @@ ExitCode Simulate(const trajlo::CommandLine& line) try {
   const trajlo::simulation::Simulator simulator(scenario);
   RequireScans(simulator);
   try {
-    PrepareOutput(FLAGS_output);
-    if (!Write(simulator, bag, trajlo::HandleInterrupts())) return ExitCode::kInterrupted;
+    const bool is_whole = trajlo::WriteRecording(
+        simulator, {FLAGS_output, FLAGS_overwrite, bag, FLAGS_threads}, trajlo::HandleInterrupts());
+    if (!is_whole) return ExitCode::kInterrupted;
   } catch (const std::runtime_error& error) {
     std::fprintf(stderr, "trajlo_simulate: %s\n", error.what());
     return ExitCode::kOutputNotWritable;
