@@ -69,6 +69,37 @@ TEST(MovingStart, ABodyAtRestBeforeARowOfHousesStaysThere) {
   }
 }
 
+/// A pause ends the search for the speed: what was seen until then decides. What comes behind it is
+/// looked for in the map, and begins anew where that does not show it.
+class PauseInTheSearch : public ::testing::TestWithParam<double> {};
+
+TEST_P(PauseInTheSearch, LosesNoPosesAndFlagsThoseThatAreWrong) {
+  constexpr double kPause_s = 1.2, kSweep_s = 0.1;
+  const double from_s = GetParam(), end_s = from_s + kPause_s + 1.6;
+  simulation::Scenario scenario = ScenarioOf({"motorway_hdl64", 8, 1.0, 25.0}, end_s);
+  for (auto& lidar : scenario.rig) lidar.measurement.max_range_m = 60.0;
+  scenario.faults.pause_from_s = from_s;
+  scenario.faults.pause_s = kPause_s;
+  const testing::SimulatedRun run(scenario);
+  std::size_t behind = 0;
+  for (std::size_t i = 1; i < run.poses.size(); ++i) {
+    const double step_s = run.Time_s(i) - run.Time_s(i - 1);
+    ASSERT_GT(step_s, 0.0);
+    ASSERT_TRUE(run.poses[i].T_world_body.t.allFinite());
+    const double error_m = (run.poses[i].T_world_body.t - run.truth[i].t).norm();
+    if (run.poses[i].flags == 0U) {
+      EXPECT_LT(error_m, 0.3) << run.Time_s(i);
+    }
+    if (step_s > kPause_s - kSweep_s) behind = i;
+  }
+  ASSERT_GT(behind, 0U);
+  EXPECT_NE(run.poses[behind].flags & kFlagGap, 0U);
+  EXPECT_GT(run.Time_s(behind - 1), from_s - kSweep_s);
+  EXPECT_GT(run.Time_s(run.poses.size() - 1), end_s - 2.0 * kSweep_s);
+}
+
+INSTANTIATE_TEST_SUITE_P(MovingStart, PauseInTheSearch, ::testing::Values(1.0, 2.0));
+
 /// In a flight with quick turns no constant twist explains the first 0.3 s.
 class InAFlight : public ::testing::TestWithParam<Start> {};
 
