@@ -70,7 +70,6 @@ class FirstInterval {
   FirstInterval(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
                 const RegistrationOptions& registration, ThreadPool* threads)
       : cloud_(cloud), map_options_(map_options), registration_(registration), threads_(threads) {
-    map_options_.finest.kind = MapKind::kVoxelHash;
     std::vector<SegmentPoint> second_half;
     for (const SegmentPoint& point : cloud.map_points) {
       (point.alpha < 0.5F ? first_half_ : second_half).push_back(point);

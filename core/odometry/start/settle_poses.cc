@@ -27,9 +27,7 @@ class Halves {
       : window_(std::move(window)),
         map_options_(map_options),
         registration_(registration),
-        threads_(threads) {
-    map_options_.finest.kind = MapKind::kVoxelHash;
-  }
+        threads_(threads) {}
 
   /// Finds planes for all points, in voxels that are `coarse` times as large.
   void Associate(double coarse) {
