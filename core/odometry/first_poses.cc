@@ -51,10 +51,8 @@ std::optional<std::vector<SE3>> Followed(const std::vector<SegmentCloud>& segmen
 std::vector<SE3> FindFirstPoses(const std::vector<SegmentCloud>& segments, const Vector6d& velocity,
                                 const OdometryOptions& options,
                                 const WindowSolverFactory& make_solver, ThreadPool* threads) {
-  const MotionPrior motion_prior(options.motion_prior);
   const auto settle = [&](const std::vector<SE3>& poses, bool is_coarse) {
-    return SettlePoses(segments, poses, is_coarse, motion_prior, options.map, options.registration,
-                       threads);
+    return SettlePoses(segments, poses, is_coarse, options, threads);
   };
   SettledPoses best = settle(ConstantTwist(segments, velocity), true);
   std::vector<Vector6d> begins = {velocity};

@@ -8,6 +8,7 @@
 #include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_cloud.h"
 #include "core/odometry/solvers/window_solver.h"
+#include "core/odometry/start/initial_motion.h"
 
 namespace trajlo {
 

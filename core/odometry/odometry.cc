@@ -163,8 +163,7 @@ void Odometry::FindFirstMotion(Beginning* beginning) {
   beginning->is_cut_short = !beginning->IsWhole(options_.initialization);
   rig_.Begin(&beginning->segments);
   FirstMotion motion =
-      MotionOfFirstInterval(JoinSegments(beginning->segments), options_.initialization,
-                            options_.map, options_.registration, &threads_);
+      MotionOfFirstInterval(JoinSegments(beginning->segments), options_, &threads_);
   if (beginning->is_cut_short) {
     if (!motion.is_shown) motion.velocity.setZero();
     motion.open_direction.reset();
@@ -228,8 +227,7 @@ void Odometry::Step(SegmentCloud cloud) {
 
 /// From the end of the window on, nobody knows where the body is.
 void Odometry::BeginSearch() {
-  search_.emplace(tracker_.WhereLastSeen(), tracker_.attitude(), options_.segmenter.interval_s,
-                  options_.initialization, options_.map, options_.registration);
+  search_.emplace(tracker_.WhereLastSeen(), tracker_.attitude(), options_);
 }
 
 /// Looks for the newest points in the map.

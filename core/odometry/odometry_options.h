@@ -4,7 +4,7 @@
 #include "core/odometry/map/map_pyramid.h"
 #include "core/odometry/segments/segmenter.h"
 #include "core/odometry/solvers/solver_options.h"
-#include "core/odometry/start/initial_motion.h"
+#include "core/odometry/start/initialization_options.h"
 #include "core/odometry/weights/motion_prior.h"
 #include "core/odometry/weights/registration_options.h"
 #include "core/odometry/window/deskew.h"

@@ -41,7 +41,7 @@ Tracker::Tracker(const OdometryOptions& options, const WindowSolverFactory& make
       map_(options.map),
       motion_prior_(options.motion_prior),
       estimator_(options.registration, options.solver, make_solver, threads),
-      window_search_(options.initialization, options.map, options.registration),
+      window_search_(options_),
       leaving_(options.marginalization, &motion_prior_, &poses_) {}
 
 void Tracker::BeginMap(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,

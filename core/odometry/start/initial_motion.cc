@@ -64,12 +64,28 @@ constexpr double kPlaceInMedians = 0.5;
 /// were right, and the wrong ones had at most 1.9.
 constexpr double kClearDeviations = 2.0;
 
+/// What the points of the second half say of a motion over the interval.
+struct MotionEvidence {
+  int agreeing = 0;    ///< How many lie on planes of the first half, ...
+  int with_plane = 0;  ///< ... and how many have one.
+  /// See MotionHypothesis::VotesAlong: of planes that face the direction which is held weakly, if
+  /// one is. Of the others, many agree with any motion along it.
+  int votes = 0;
+};
+
+struct InitialMotion {
+  /// The body's twist over the whole first interval: T(alpha) = Exp(alpha tau).
+  Vector6d tau = Vector6d::Zero();
+  MotionEvidence found;                           ///< For tau.
+  MotionEvidence at_rest;                         ///< For a sensor that stood still.
+  std::optional<Eigen::Vector3d> open_direction;  ///< See FirstMotion.
+};
+
 /// The first interval, and ways to look at it.
 class FirstInterval {
  public:
-  FirstInterval(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
-                const RegistrationOptions& registration, ThreadPool* threads)
-      : cloud_(cloud), map_options_(map_options), registration_(registration), threads_(threads) {
+  FirstInterval(const SegmentCloud& cloud, const OdometryOptions& options, ThreadPool* threads)
+      : cloud_(cloud), options_(options), threads_(threads) {
     std::vector<SegmentPoint> second_half;
     for (const SegmentPoint& point : cloud.map_points) {
       (point.alpha < 0.5F ? first_half_ : second_half).push_back(point);
@@ -84,7 +100,7 @@ class FirstInterval {
   double Duration_s() const { return cloud_.Duration_s(); }
 
   MotionHypothesis At(const Vector6d& tau) const {
-    return {first_half_, second_half_, cloud_.lidar_origins_body_m, tau, map_options_, threads_};
+    return {first_half_, second_half_, cloud_.lidar_origins_body_m, tau, options_.map, threads_};
   }
 
   int VotesAlong(const Eigen::Vector3d& direction, const MotionHypothesis& hypothesis) const {
@@ -104,7 +120,7 @@ class FirstInterval {
     along.direction_ = direction;
     // The surfaces are those of the whole interval: it sees each of them better than a half does.
     const MotionHypothesis whole(cloud_.map_points, second_half_, cloud_.lidar_origins_body_m, tau,
-                                 map_options_, threads_);
+                                 options_.map, threads_);
     along.second_half_ = whole.TellingAlong(direction, second_half_);
     return along;
   }
@@ -140,14 +156,13 @@ class FirstInterval {
  private:
   RegistrationNormalEquations Linearize(const Vector6d& tau, double coarse) const {
     const MotionHypothesis hypothesis(first_half_, second_half_, cloud_.lidar_origins_body_m, tau,
-                                      Coarsened(map_options_, coarse), threads_);
-    const RegistrationNoise noise = CoarsenedNoise(registration_, coarse);
+                                      Coarsened(options_.map, coarse), threads_);
+    const RegistrationNoise noise = CoarsenedNoise(options_.registration, coarse);
     return direction_ ? hypothesis.LinearizeAlong(*direction_, noise) : hypothesis.Linearize(noise);
   }
 
   const SegmentCloud& cloud_;
-  MapPyramidOptions map_options_;
-  const RegistrationOptions& registration_;
+  const OdometryOptions& options_;
   ThreadPool* threads_;
   std::vector<SegmentPoint> first_half_;
   std::vector<SegmentPoint> second_half_;
@@ -186,14 +201,9 @@ Vector6d SearchAlong(const Eigen::Vector3d& direction, const FirstInterval& inte
   return interval.VotesAlong(direction, interval.At(best)) < clearly ? found : best;
 }
 
-}  // namespace
-
-InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidOptions& map_options,
-                                    const RegistrationOptions& registration, ThreadPool* threads) {
+InitialMotion EstimateInitialMotion(const FirstInterval& interval, ThreadPool* threads) {
   InitialMotion motion;
-  const FirstInterval interval(cloud, map_options, registration, threads);
-  motion.points = interval.points();
-  if (motion.points == 0) return motion;
+  if (interval.points() == 0) return motion;
   motion.tau = interval.Refine(Vector6d::Zero(), 0, kRounds);
   const auto direction = interval.WeakDirection(motion.tau);
   const bool is_at_rest = motion.tau.head<3>().norm() < kAtRest_m;
@@ -213,12 +223,14 @@ InitialMotion EstimateInitialMotion(const SegmentCloud& cloud, const MapPyramidO
   return motion;
 }
 
-FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const InitializationOptions& options,
-                                  const MapPyramidOptions& map_options,
-                                  const RegistrationOptions& registration, ThreadPool* threads) {
+}  // namespace
+
+FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const OdometryOptions& options,
+                                  ThreadPool* threads) {
   const double duration_s = cloud.Duration_s();
-  if (!options.estimate_motion || !(duration_s > 0.0)) return {};
-  const InitialMotion motion = EstimateInitialMotion(cloud, map_options, registration, threads);
+  if (!options.initialization.estimate_motion || !(duration_s > 0.0)) return {};
+  const FirstInterval interval(cloud, options, threads);
+  const InitialMotion motion = EstimateInitialMotion(interval, threads);
   const MotionEvidence &found = motion.found, &at_rest = motion.at_rest;
   const double way_m = motion.tau.head<3>().norm();
   const double gain = way_m > kClearMotion_m ? 1.0 : kMinGain;
@@ -229,7 +241,7 @@ FirstMotion MotionOfFirstInterval(const SegmentCloud& cloud, const Initializatio
   FirstMotion first;
   first.is_at_rest = way_m < kAtRest_m && motion.tau.tail<3>().norm() < kAtRest_rad;
   first.is_steady = first.is_at_rest || taken.agreeing > kSteady * taken.with_plane;
-  first.is_shown = taken.agreeing > kShown * motion.points;
+  first.is_shown = taken.agreeing > kShown * interval.points();
   first.open_direction = motion.open_direction;
   if (is_believed) first.velocity = motion.tau / duration_s;
   return first;

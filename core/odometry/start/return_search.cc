@@ -6,6 +6,7 @@
 
 #include "core/odometry/health/support.h"
 #include "core/odometry/segments/join_segments.h"
+#include "core/odometry/start/initial_motion.h"
 #include "core/scans/nanoseconds.h"
 
 namespace trajlo {
@@ -59,15 +60,15 @@ void ReturnSearch::Add(SegmentCloud segment) {
 /// apart, by a variance of q t² (T - t)² / (3 T) at t; the mean of that is q T³ / 90.
 double ReturnSearch::Longest_s() const {
   const double twist_s = std::cbrt(90.0 * kBend_m * kBend_m / last_.density[0]);
-  return std::min(std::max(twist_s, kFewestSegments * interval_s_),
-                  initialization_.first_interval_s);
+  return std::min(std::max(twist_s, kFewestSegments * options_.segmenter.interval_s),
+                  options_.initialization.first_interval_s);
 }
 
 bool ReturnSearch::IsDue() const {
   if (segments_.empty()) return false;
   if (segments_.back().is_instant) return since_look_s_ >= kPatience * searched_s_;
   const double sweep_s = Seconds(segments_.back().end_ns - segments_.front().begin_ns);
-  const double enough_s = Longest_s() - interval_s_;
+  const double enough_s = Longest_s() - options_.segmenter.interval_s;
   return sweep_s >= enough_s && since_look_s_ >= std::max(enough_s, kPatience * searched_s_);
 }
 
@@ -108,13 +109,11 @@ ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
   if (sweep.cloud.is_instant) {
     sweep.cloud.begin_ns = sweep.cloud.end_ns;
   } else {
-    sweep.tau =
-        sweep.cloud.Duration_s() *
-        MotionOfFirstInterval(sweep.cloud, initialization_, map_options_, registration_, threads)
-            .velocity;
+    sweep.tau = sweep.cloud.Duration_s() *
+                MotionOfFirstInterval(sweep.cloud, options_, threads).velocity;
   }
-  const auto found =
-      Relocalize(sweep.cloud, sweep.tau, map, Region(sweep.cloud.begin_ns), registration_, threads);
+  const auto found = Relocalize(sweep.cloud, sweep.tau, map, Region(sweep.cloud.begin_ns),
+                                options_.registration, threads);
   if (found) {
     sweep.T_world_begin = found->T_world_begin;
     sweep.tau = found->tau;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/odometry/start/initial_motion.h"
+#include "core/odometry/odometry_options.h"
 #include "core/odometry/start/mean_attitude.h"
 #include "core/odometry/start/relocalization.h"
 
@@ -38,16 +38,9 @@ class ReturnSearch {
   /// When this much data has come and the place is not found, the estimator is lost.
   static constexpr double kMaxSearch_s = 5.0;
 
-  /// Segments are `interval_s` long. `attitude` must outlive it.
-  ReturnSearch(const LastSeen& last, const MeanAttitude& attitude, double interval_s,
-               const InitializationOptions& initialization, const MapPyramidOptions& map,
-               const RegistrationOptions& registration)
-      : last_(last),
-        attitude_(attitude),
-        interval_s_(interval_s),
-        initialization_(initialization),
-        map_options_(map),
-        registration_(registration) {}
+  /// `attitude` and `options` must outlive it.
+  ReturnSearch(const LastSeen& last, const MeanAttitude& attitude, const OdometryOptions& options)
+      : last_(last), attitude_(attitude), options_(options) {}
 
   const LastSeen& last() const { return last_; }
   /// A segment, or a gap: what came before one is of no use.
@@ -70,10 +63,7 @@ class ReturnSearch {
 
   LastSeen last_;
   const MeanAttitude& attitude_;
-  double interval_s_;
-  InitializationOptions initialization_;
-  MapPyramidOptions map_options_;
-  RegistrationOptions registration_;
+  const OdometryOptions& options_;
   std::vector<SegmentCloud> segments_;  ///< In a row; the first one has points.
   double searched_s_ = 0.0;             ///< Time with points since then.
   double since_look_s_ = 0.0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/odometry/start/coarse_to_fine.h"
+#include "core/odometry/weights/motion_prior.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/push_segment.h"
 #include "core/odometry/window/step_size.h"
@@ -22,16 +23,12 @@ constexpr double kDamping = 0.5;
 /// A window whose segments are two halves, each of which is the other's map.
 class Halves {
  public:
-  Halves(Window window, const MapPyramidOptions& map_options,
-         const RegistrationOptions& registration, ThreadPool* threads)
-      : window_(std::move(window)),
-        map_options_(map_options),
-        registration_(registration),
-        threads_(threads) {}
+  Halves(Window window, const OdometryOptions& options, ThreadPool* threads)
+      : window_(std::move(window)), options_(options), threads_(threads) {}
 
   /// Finds planes for all points, in voxels that are `coarse` times as large.
   void Associate(double coarse) {
-    const MapPyramidOptions options = Coarsened(map_options_, coarse);
+    const MapPyramidOptions options = Coarsened(options_.map, coarse);
     std::array<MapPyramid, 2> maps = {MapPyramid(options), MapPyramid(options)};
     for (int k = 0; k < window_.size(); ++k) {
       EnterMap(window_.At(k).cloud, window_.Pose(k), window_.Pose(k + 1), threads_,
@@ -48,7 +45,7 @@ class Halves {
   /// A damped step of Gauss-Newton, with kernels that are `coarse` times as wide. Returns whether
   /// it was small, or none could be made.
   bool Step(double coarse) {
-    const RegistrationNoise noise = CoarsenedNoise(registration_, coarse);
+    const RegistrationNoise noise = CoarsenedNoise(options_.registration, coarse);
     std::vector<RegistrationNormalEquations> of_segments;
     for (int k = 0; k < window_.size(); ++k) {
       of_segments.push_back(
@@ -86,25 +83,22 @@ class Halves {
   bool IsSecond(int k) const { return 2 * k >= window_.size(); }
 
   Window window_;
-  MapPyramidOptions map_options_;
-  const RegistrationOptions& registration_;
+  const OdometryOptions& options_;
   ThreadPool* threads_;
 };
 
 }  // namespace
 
 SettledPoses SettlePoses(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,
-                         bool is_coarse, const MotionPrior& motion_prior,
-                         const MapPyramidOptions& map_options,
-                         const RegistrationOptions& registration, ThreadPool* threads) {
+                         bool is_coarse, const OdometryOptions& options, ThreadPool* threads) {
   Window window = MakeWindow(segments.front().begin_ns, poses.front());
   const Vector6d velocity = Minus(poses[1], poses[0]) / segments.front().Duration_s();
   for (const SegmentCloud& cloud : segments) {
     PushSegment(cloud, velocity, Deskewing::kEstimated, &window);
   }
   window.SetPoses(poses);
-  motion_prior.Apply(&window);
-  Halves halves(std::move(window), map_options, registration, threads);
+  MotionPrior(options.motion_prior).Apply(&window);
+  Halves halves(std::move(window), options, threads);
   for (int round = 0; round < kRounds; ++round) {
     const double coarse = is_coarse ? Coarseness(round) : 1.0;
     halves.Associate(coarse);

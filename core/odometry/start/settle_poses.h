@@ -3,11 +3,9 @@
 
 #include <vector>
 
-#include "core/odometry/map/map_pyramid.h"
+#include "core/odometry/odometry_options.h"
 #include "core/odometry/parallel/thread_pool.h"
 #include "core/odometry/segments/segment_cloud.h"
-#include "core/odometry/weights/motion_prior.h"
-#include "core/odometry/weights/registration_options.h"
 
 namespace trajlo {
 
@@ -25,8 +23,6 @@ struct SettledPoses {
 /// `poses` is where to begin: one more than `segments`, of which there are at least two. With
 /// `is_coarse` the voxels and kernels of the first rounds are wider.
 SettledPoses SettlePoses(const std::vector<SegmentCloud>& segments, const std::vector<SE3>& poses,
-                         bool is_coarse, const MotionPrior& motion_prior,
-                         const MapPyramidOptions& map_options,
-                         const RegistrationOptions& registration, ThreadPool* threads);
+                         bool is_coarse, const OdometryOptions& options, ThreadPool* threads);
 
 }  // namespace trajlo

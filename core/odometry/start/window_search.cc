@@ -7,6 +7,7 @@
 
 #include "core/odometry/health/window_statistics.h"
 #include "core/odometry/segments/join_segments.h"
+#include "core/odometry/start/initial_motion.h"
 #include "core/scans/nanoseconds.h"
 #include "manifolds/se3_interpolation.h"
 
@@ -51,12 +52,10 @@ std::optional<SweepMotion> WindowSearch::Look(const Window& window, const DoubtW
   // A window that contradicts the map does not tell how the body moves, either.
   const Vector6d tau =
       doubt.IsContradicted(agreement)
-          ? sweep.Duration_s() *
-                MotionOfFirstInterval(sweep, initialization_, map_options_, registration_, threads)
-                    .velocity
+          ? sweep.Duration_s() * MotionOfFirstInterval(sweep, options_, threads).velocity
           : Minus(window.EndPose(), window.T_world_begin);
   return Relocalize(sweep, tau, map, RegionAround(window.T_world_begin, *reach, turn_axis_world),
-                    registration_, threads);
+                    options_.registration, threads);
 }
 
 void MoveWindow(const SweepMotion& found, Window* window) {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/odometry/health/doubt.h"
-#include "core/odometry/start/initial_motion.h"
+#include "core/odometry/odometry_options.h"
 #include "core/odometry/start/relocalization.h"
 #include "core/odometry/window/step_size.h"
 
@@ -19,9 +19,8 @@ constexpr StepSize kSamePlace = {0.5, 0.12};
 /// seen is looked for in the map, as far as the body may have moved unseen.
 class WindowSearch {
  public:
-  WindowSearch(const InitializationOptions& initialization, const MapPyramidOptions& map,
-               const RegistrationOptions& registration)
-      : initialization_(initialization), map_options_(map), registration_(registration) {}
+  /// `options` must outlive it.
+  explicit WindowSearch(const OdometryOptions& options) : options_(options) {}
 
   /// Where the window is, if it is time to look and the place is clear. `agreement` is that of the
   /// newest points with the map, MapAgreement::worst; about `turn_axis_world` the body may have
@@ -31,9 +30,7 @@ class WindowSearch {
                                   ThreadPool* threads);
 
  private:
-  const InitializationOptions initialization_;
-  const MapPyramidOptions map_options_;
-  const RegistrationOptions registration_;
+  const OdometryOptions& options_;
   /// Waits for a window that begins then.
   std::int64_t next_look_ns_ = std::numeric_limits<std::int64_t>::min();
 };

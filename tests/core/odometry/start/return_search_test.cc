@@ -32,7 +32,7 @@ SegmentCloud Gap(std::int64_t begin_ns) {
 class Searching {
  public:
   explicit Searching(double density_m2_s3 = 0.5)
-      : search_(Last(density_m2_s3), attitude_, kSegment_s, {}, {}, {}) {}
+      : search_(Last(density_m2_s3), attitude_, options_) {}
 
   void Add(int segments) {
     for (int i = 0; i < segments; ++i) {
@@ -58,6 +58,7 @@ class Searching {
   }
 
   MeanAttitude attitude_;
+  OdometryOptions options_;
   ReturnSearch search_;
   std::int64_t t_ns_ = 0;
 };

@@ -54,7 +54,7 @@ struct Interval {
 
   SettledPoses Settle(const std::vector<SE3>& start, bool is_coarse, int threads = 1) const {
     ThreadPool pool(threads);
-    return SettlePoses(segments, start, is_coarse, MotionPrior({}), {}, {}, &pool);
+    return SettlePoses(segments, start, is_coarse, {}, &pool);
   }
 
   StepSize LargestError(const std::vector<SE3>& poses) const {
