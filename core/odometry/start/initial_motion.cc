@@ -86,22 +86,23 @@ class FirstInterval {
  public:
   FirstInterval(const SegmentCloud& cloud, const OdometryOptions& options, ThreadPool* threads)
       : cloud_(cloud), options_(options), threads_(threads) {
+    halves_.lidar_origins_body_m = cloud.lidar_origins_body_m;
     std::vector<SegmentPoint> second_half;
     for (const SegmentPoint& point : cloud.map_points) {
-      (point.alpha < 0.5F ? first_half_ : second_half).push_back(point);
+      (point.alpha < 0.5F ? halves_.map_points : second_half).push_back(point);
     }
-    VoxelFilter(kSpacing_m).Filter(second_half, &second_half_);
+    VoxelFilter(kSpacing_m).Filter(second_half, &halves_.registration_points);
     std::vector<float> ranges_m;
-    for (const SegmentPoint& point : second_half_) ranges_m.push_back(point.p_body_m.norm());
+    for (const SegmentPoint& point : halves_.registration_points) {
+      ranges_m.push_back(point.p_body_m.norm());
+    }
     place_m_ = kPlaceInMedians * UpperMedian(std::move(ranges_m));
   }
 
-  int points() const { return static_cast<int>(second_half_.size()); }
+  int points() const { return static_cast<int>(halves_.registration_points.size()); }
   double Duration_s() const { return cloud_.Duration_s(); }
 
-  MotionHypothesis At(const Vector6d& tau) const {
-    return {first_half_, second_half_, cloud_.lidar_origins_body_m, tau, options_.map, threads_};
-  }
+  MotionHypothesis At(const Vector6d& tau) const { return {halves_, tau, options_.map, threads_}; }
 
   int VotesAlong(const Eigen::Vector3d& direction, const MotionHypothesis& hypothesis) const {
     return hypothesis.VotesAlong(direction, place_m_);
@@ -119,9 +120,10 @@ class FirstInterval {
     FirstInterval along = *this;
     along.direction_ = direction;
     // The surfaces are those of the whole interval: it sees each of them better than a half does.
-    const MotionHypothesis whole(cloud_.map_points, second_half_, cloud_.lidar_origins_body_m, tau,
-                                 options_.map, threads_);
-    along.second_half_ = whole.TellingAlong(direction, second_half_);
+    SegmentCloud whole = halves_;
+    whole.map_points = cloud_.map_points;
+    along.halves_.registration_points = MotionHypothesis(whole, tau, options_.map, threads_)
+                                            .TellingAlong(direction, halves_.registration_points);
     return along;
   }
 
@@ -155,8 +157,7 @@ class FirstInterval {
 
  private:
   RegistrationNormalEquations Linearize(const Vector6d& tau, double coarse) const {
-    const MotionHypothesis hypothesis(first_half_, second_half_, cloud_.lidar_origins_body_m, tau,
-                                      Coarsened(options_.map, coarse), threads_);
+    const MotionHypothesis hypothesis(halves_, tau, Coarsened(options_.map, coarse), threads_);
     const RegistrationNoise noise = CoarsenedNoise(options_.registration, coarse);
     return direction_ ? hypothesis.LinearizeAlong(*direction_, noise) : hypothesis.Linearize(noise);
   }
@@ -164,8 +165,7 @@ class FirstInterval {
   const SegmentCloud& cloud_;
   const OdometryOptions& options_;
   ThreadPool* threads_;
-  std::vector<SegmentPoint> first_half_;
-  std::vector<SegmentPoint> second_half_;
+  SegmentCloud halves_;                       ///< As MotionHypothesis takes them.
   double place_m_ = 0.0;                      ///< See MotionHypothesis.
   std::optional<Eigen::Vector3d> direction_;  ///< Of the way that is looked for, if of one.
 };

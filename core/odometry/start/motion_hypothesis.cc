@@ -9,7 +9,7 @@
 #include "core/odometry/start/coarse_to_fine.h"
 #include "core/odometry/window/facing.h"
 #include "core/odometry/window/association.h"
-#include "core/odometry/window/points_to_world.h"
+#include "core/odometry/window/enter_map.h"
 #include "factors/plane_distances.h"
 
 namespace trajlo {
@@ -27,17 +27,12 @@ int MomentOf(const RegistrationPoint& point) { return static_cast<int>(point.alp
 
 }  // namespace
 
-MotionHypothesis::MotionHypothesis(const std::vector<SegmentPoint>& map_points,
-                                   const std::vector<SegmentPoint>& second_half,
-                                   const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
-                                   const Vector6d& tau, const MapPyramidOptions& map_options,
-                                   ThreadPool* threads)
+MotionHypothesis::MotionHypothesis(const SegmentCloud& interval, const Vector6d& tau,
+                                   const MapPyramidOptions& map_options, ThreadPool* threads)
     : T_end_(se3::Exp(tau)) {
   MapPyramid map(map_options);
-  const std::vector<LidarPath> lidars = LidarPaths(lidar_origins_body_m, SE3(), T_end_);
-  map.Insert(ToMapPoints({SE3(), T_end_}, lidars, map_points.data(), map_points.size()));
-  SegmentAssociation().Associate(second_half, lidar_origins_body_m, SE3(), T_end_, map, threads,
-                                 &points_);
+  EnterMap(interval, SE3(), T_end_, threads, &map);
+  SegmentAssociation().Associate(interval, SE3(), T_end_, map, threads, &points_);
 }
 
 RegistrationNormalEquations MotionHypothesis::Linearize(const RegistrationNoise& noise) const {

@@ -15,11 +15,9 @@ namespace trajlo {
 /// with it, and planes of that map for the points of its second half.
 class MotionHypothesis {
  public:
-  /// `tau` is the body's twist over the whole interval. The map is made of `map_points`: the first
-  /// half, or the whole interval to know its surfaces.
-  MotionHypothesis(const std::vector<SegmentPoint>& map_points,
-                   const std::vector<SegmentPoint>& second_half,
-                   const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const Vector6d& tau,
+  /// The map points of `interval` are its first half, or all of it to know its surfaces; its
+  /// registration points are those of the second half. `tau` is the body's twist over all of it.
+  MotionHypothesis(const SegmentCloud& interval, const Vector6d& tau,
                    const MapPyramidOptions& map_options, ThreadPool* threads);
 
   RegistrationNormalEquations Linearize(const RegistrationNoise& noise) const;
@@ -38,9 +36,9 @@ class MotionHypothesis {
   /// others say.
   int AgreeingAlong(const Eigen::Vector3d& direction) const;
   int FacingAlong(const Eigen::Vector3d& direction) const;
-  /// The points of `second_half` (the one that the constructor was given) that may tell how far one
-  /// has moved along `direction`: all but those on planes that do not face it. A few of these
-  /// remain to hold the rest of the motion.
+  /// The points of `second_half` (that of the interval) that may tell how far one has moved along
+  /// `direction`: all but those on planes that do not face it. A few of these remain to hold the
+  /// rest of the motion.
   std::vector<SegmentPoint> TellingAlong(const Eigen::Vector3d& direction,
                                          const std::vector<SegmentPoint>& second_half) const;
 

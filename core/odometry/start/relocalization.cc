@@ -185,10 +185,7 @@ class Hypothesis {
     return true;
   }
 
-  void Associate() {
-    association_.Associate(sweep_.registration_points, sweep_.lidar_origins_body_m, T_begin_,
-                           T_end(), map_, threads_, &points_);
-  }
+  void Associate() { association_.Associate(sweep_, T_begin_, T_end(), map_, threads_, &points_); }
 
   const SegmentCloud& sweep_;
   SE3 T_begin_end_;

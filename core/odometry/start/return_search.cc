@@ -109,8 +109,8 @@ ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
   if (sweep.cloud.is_instant) {
     sweep.cloud.begin_ns = sweep.cloud.end_ns;
   } else {
-    sweep.tau = sweep.cloud.Duration_s() *
-                MotionOfFirstInterval(sweep.cloud, options_, threads).velocity;
+    sweep.tau =
+        sweep.cloud.Duration_s() * MotionOfFirstInterval(sweep.cloud, options_, threads).velocity;
   }
   const auto found = Relocalize(sweep.cloud, sweep.tau, map, Region(sweep.cloud.begin_ns),
                                 options_.registration, threads);

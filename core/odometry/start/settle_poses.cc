@@ -36,9 +36,8 @@ class Halves {
     }
     for (int k = 0; k < window_.size(); ++k) {
       Segment& segment = window_.At(k);
-      SegmentAssociation().Associate(
-          segment.cloud.registration_points, segment.cloud.lidar_origins_body_m, window_.Pose(k),
-          window_.Pose(k + 1), maps[IsSecond(k) ? 0 : 1], threads_, &segment.points);
+      SegmentAssociation().Associate(segment.cloud, window_.Pose(k), window_.Pose(k + 1),
+                                     maps[IsSecond(k) ? 0 : 1], threads_, &segment.points);
     }
   }
 

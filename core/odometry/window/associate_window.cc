@@ -18,10 +18,8 @@ int AssociateWindow(const MapPyramid& map, const StepSize& tolerance, ThreadPool
   // The newest segment first: most of its cells have not been asked before, which takes longest.
   for (int k = window->size() - 1; k >= 0; --k) {
     Segment& segment = window->At(k);
-    const SegmentCloud& cloud = segment.cloud;
-    const std::size_t count =
-        segment.association.Begin(cloud.registration_points, cloud.lidar_origins_body_m,
-                                  window->Pose(k), segment.T_world_end, map, tolerance);
+    const std::size_t count = segment.association.Begin(segment.cloud, window->Pose(k),
+                                                        segment.T_world_end, map, tolerance);
     for (std::size_t i = 0; i < count; ++i) chunks.push_back({&segment.association, i});
   }
   // One loop for all segments: that wakes the other threads once.

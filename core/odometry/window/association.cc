@@ -15,12 +15,12 @@ constexpr std::size_t kBatch = MapPyramid::kMaxBatch;
 
 }  // namespace
 
-std::size_t SegmentAssociation::Begin(const std::vector<SegmentPoint>& points,
-                                      const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
-                                      const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
+std::size_t SegmentAssociation::Begin(const SegmentCloud& cloud, const SE3& T_begin,
+                                      const SE3& T_end, const MapPyramid& map,
                                       const StepSize& tolerance) {
   const bool is_first = cells_.empty();
   if (!is_first && AreNear(T_begin, T_end, T_begin_, T_end_, tolerance)) return 0;
+  const std::vector<SegmentPoint>& points = cloud.registration_points;
   T_begin_ = T_begin;
   T_end_ = T_end;
   const bool has_grown = std::exchange(inserted_, map.inserted()) != map.inserted();
@@ -31,7 +31,8 @@ std::size_t SegmentAssociation::Begin(const std::vector<SegmentPoint>& points,
   planes_.resize(points.size());
   const std::size_t chunks = (points.size() + kBatch - 1) / kBatch;
   round_.emplace(Round{&points, &map, has_grown, asks_all, SegmentMotion(T_begin, T_end),
-                       LidarPaths(lidar_origins_body_m, T_begin, T_end), std::vector<int>(chunks)});
+                       LidarPaths(cloud.lidar_origins_body_m, T_begin, T_end),
+                       std::vector<int>(chunks)});
   return chunks;
 }
 
@@ -81,11 +82,10 @@ int SegmentAssociation::Finish(std::vector<RegistrationPoint>* associated) {
   return searched;
 }
 
-int SegmentAssociation::Associate(const std::vector<SegmentPoint>& points,
-                                  const std::vector<Eigen::Vector3d>& lidar_origins_body_m,
-                                  const SE3& T_begin, const SE3& T_end, const MapPyramid& map,
-                                  ThreadPool* threads, std::vector<RegistrationPoint>* associated) {
-  const std::size_t chunks = Begin(points, lidar_origins_body_m, T_begin, T_end, map, {});
+int SegmentAssociation::Associate(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end,
+                                  const MapPyramid& map, ThreadPool* threads,
+                                  std::vector<RegistrationPoint>* associated) {
+  const std::size_t chunks = Begin(cloud, T_begin, T_end, map, {});
   threads->ParallelFor(chunks, [&](std::size_t i) { Look(i); });
   return Finish(associated);
 }

@@ -28,13 +28,12 @@ inline bool IsSamePoint(const RegistrationPoint& associated, const SegmentPoint&
 /// asked while the segment moves less than a tolerance.
 class SegmentAssociation {
  public:
-  /// Takes every point to the world at its own time on T_begin..T_end, where Look() will look up
-  /// the planes of those that need one. `points` are the same at every call; `lidar_origins_body_m`
-  /// says where each point's LiDAR is. Both, and `map`, must live until Finish(). Returns in how
-  /// many chunks: none where the poses are within `tolerance` of where they were.
-  std::size_t Begin(const std::vector<SegmentPoint>& points,
-                    const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const SE3& T_begin,
-                    const SE3& T_end, const MapPyramid& map, const StepSize& tolerance);
+  /// Takes every registration point to the world at its own time on T_begin..T_end, where Look()
+  /// will look up the planes of those that need one. `cloud` is the same at every call; it and
+  /// `map` must live until Finish(). Returns in how many chunks: none where the poses are within
+  /// `tolerance` of where they were.
+  std::size_t Begin(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end,
+                    const MapPyramid& map, const StepSize& tolerance);
   /// Every chunk once, in any order; several threads may.
   void Look(std::size_t chunk);
   /// `associated` receives the points that have a plane, in the order of the points; it stays as it
@@ -42,9 +41,8 @@ class SegmentAssociation {
   int Finish(std::vector<RegistrationPoint>* associated);
 
   /// The three in a row, without a tolerance.
-  int Associate(const std::vector<SegmentPoint>& points,
-                const std::vector<Eigen::Vector3d>& lidar_origins_body_m, const SE3& T_begin,
-                const SE3& T_end, const MapPyramid& map, ThreadPool* threads,
+  int Associate(const SegmentCloud& cloud, const SE3& T_begin, const SE3& T_end,
+                const MapPyramid& map, ThreadPool* threads,
                 std::vector<RegistrationPoint>* associated);
 
  private:

@@ -25,7 +25,8 @@ using trajlo::testing::Overridden;
 using trajlo::testing::OverrideError;
 
 TEST(Config, SetsWhatTheFileSaysAndKeepsTheRest) {
-  const RunConfig config = Loaded("window:\n  segments: 7\nexpert: {window: {deskewing: predicted}}\n");
+  const RunConfig config =
+      Loaded("window:\n  segments: 7\nexpert: {window: {deskewing: predicted}}\n");
   EXPECT_EQ(config.odometry.window.segments, 7);
   EXPECT_EQ(config.odometry.window.deskewing, Deskewing::kPredicted);
   EXPECT_EQ(config.odometry.map.finest.voxel_size_m, RunConfig().odometry.map.finest.voxel_size_m);

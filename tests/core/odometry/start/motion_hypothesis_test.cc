@@ -14,7 +14,9 @@ const Eigen::Vector3d kForward = Eigen::Vector3d::UnitX();
 
 /// Boards across the way, as a sensor at rest sees them: each in both halves of the interval.
 struct Boards {
-  std::vector<SegmentPoint> first_half, second_half;
+  SegmentCloud interval;  ///< As MotionHypothesis takes it.
+
+  Boards() { interval.lidar_origins_body_m = {Eigen::Vector3d::Zero()}; }
 
   /// One of 1 m by 1 m. In the second half, its 25 points are seen from alpha on, so far apart.
   void Add(float x_m, float y_m, float alpha, float step) {
@@ -22,13 +24,13 @@ struct Boards {
       for (int j = 0; j < 11; ++j) {
         const Eigen::Vector3f p(x_m, y_m + 0.1F * static_cast<float>(i),
                                 0.1F * static_cast<float>(j));
-        first_half.push_back({p, 0.25F});
+        interval.map_points.push_back({p, 0.25F});
       }
     }
     for (int i = 0; i < 25; ++i) {
       const Eigen::Vector3f p(x_m, y_m + 0.3F + 0.1F * static_cast<float>(i % 5),
                               0.3F + 0.1F * static_cast<float>(i / 5));
-      second_half.push_back({p, alpha + step * static_cast<float>(i)});
+      interval.registration_points.push_back({p, alpha + step * static_cast<float>(i)});
     }
   }
 
@@ -38,8 +40,8 @@ struct Boards {
       for (int j = 0; j < 160; ++j) {
         const Eigen::Vector3f p(0.25F * static_cast<float>(i) - 20.0F,
                                 0.25F * static_cast<float>(j) - 20.0F, -2.0F);
-        first_half.push_back({p, 0.25F});
-        second_half.push_back({p, 0.75F});
+        interval.map_points.push_back({p, 0.25F});
+        interval.registration_points.push_back({p, 0.75F});
       }
     }
   }
@@ -48,7 +50,7 @@ struct Boards {
     ThreadPool threads(1);
     Vector6d tau = Vector6d::Zero();
     tau[0] = forward_m;
-    return MotionHypothesis(first_half, second_half, {Eigen::Vector3d::Zero()}, tau, {}, &threads);
+    return {interval, tau, {}, &threads};
   }
 };
 
@@ -103,8 +105,7 @@ TEST(MotionHypothesis, PlanesThatDoNotFaceADirectionSayNothingAlongIt) {
   Vector6d tau = Vector6d::Zero();
   tau << 0.05, 0.02, 0.0, 0.0, 0.0, 0.02;
   ThreadPool threads(1);
-  const MotionHypothesis hypothesis(boards.first_half, boards.second_half,
-                                    {Eigen::Vector3d::Zero()}, tau, {}, &threads);
+  const MotionHypothesis hypothesis(boards.interval, tau, {}, &threads);
   const RegistrationNormalEquations all = hypothesis.Linearize({});
   ASSERT_GT(all.g.norm(), 0.0);
   const RegistrationNormalEquations forward = hypothesis.LinearizeAlong(kForward, {});
@@ -130,7 +131,7 @@ TEST(MotionHypothesis, AFewPointsOfTheGroundHoldWhatItTells) {
   boards.AddGround();
   boards.Add(10.0F, 0.0F, 0.6F, 0.01F);
   const auto telling_along = [&](const Eigen::Vector3d& direction) {
-    return boards.Moving(0.0).TellingAlong(direction, boards.second_half);
+    return boards.Moving(0.0).TellingAlong(direction, boards.interval.registration_points);
   };
   const auto boards_among = [](const std::vector<SegmentPoint>& points) {
     return std::count_if(points.begin(), points.end(), [](const SegmentPoint& point) {
@@ -142,9 +143,10 @@ TEST(MotionHypothesis, AFewPointsOfTheGroundHoldWhatItTells) {
   EXPECT_GT(forward.size(), 2000u);
   EXPECT_LT(forward.size(), 3000u);
   // The ground faces upwards, and there are few others.
-  EXPECT_EQ(telling_along(Eigen::Vector3d::UnitZ()).size(), boards.second_half.size());
+  EXPECT_EQ(telling_along(Eigen::Vector3d::UnitZ()).size(),
+            boards.interval.registration_points.size());
   // A point without a plane may tell.
-  boards.second_half.push_back({Eigen::Vector3f(100.0F, 0.0F, 0.0F), 0.9F});
+  boards.interval.registration_points.push_back({Eigen::Vector3f(100.0F, 0.0F, 0.0F), 0.9F});
   EXPECT_EQ(telling_along(kForward).size(), forward.size() + 1);
 }
 

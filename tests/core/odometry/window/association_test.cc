@@ -52,11 +52,11 @@ struct Found {
 /// A segment that moves, and points that lie on the walls exactly at their times.
 struct Segment {
   SE3 T_begin, T_end;
-  std::vector<SegmentPoint> points;
-  std::vector<Eigen::Vector3d> origins = {Eigen::Vector3d::Zero()};
+  SegmentCloud cloud;
   std::vector<int> axes;
 
   Segment(int count, unsigned seed) {
+    cloud.lidar_origins_body_m = {Eigen::Vector3d::Zero()};
     testing::Random random(seed);
     T_begin = se3::Exp(random.Tangent(0.5, 0.4));
     T_end = Plus(T_begin, random.Tangent(0.2, 0.3));
@@ -65,13 +65,12 @@ struct Segment {
       const Eigen::Vector3d p_world = OnWalls(&random, &axis);
       const auto alpha = static_cast<float>(random.Uniform(0.0, 1.0));
       const SE3 T = Interpolate(T_begin, T_end, alpha);
-      points.push_back({(T.Inverse() * p_world).cast<float>(), alpha, 0});
+      cloud.registration_points.push_back({(T.Inverse() * p_world).cast<float>(), alpha, 0});
       axes.push_back(axis);
     }
   }
   int Associate(const MapPyramid& map, ThreadPool* threads, Found* found) const {
-    return found->association.Associate(points, origins, T_begin, T_end, map, threads,
-                                        &found->points);
+    return found->association.Associate(cloud, T_begin, T_end, map, threads, &found->points);
   }
 };
 
@@ -87,12 +86,12 @@ TEST(SegmentAssociation, FindsTheWallsOfABox) {
   std::size_t next = 0;
   for (const RegistrationPoint& point : found.points) {
     // In the order of the segment's points.
-    while (next < segment.points.size() &&
-           segment.points[next].p_body_m.cast<double>() != point.p_body_m) {
+    while (next < segment.cloud.registration_points.size() &&
+           segment.cloud.registration_points[next].p_body_m.cast<double>() != point.p_body_m) {
       ++next;
     }
-    ASSERT_LT(next, segment.points.size());
-    EXPECT_EQ(point.alpha, segment.points[next].alpha);
+    ASSERT_LT(next, segment.cloud.registration_points.size());
+    EXPECT_EQ(point.alpha, segment.cloud.registration_points[next].alpha);
     EXPECT_NEAR(point.normal_world.norm(), 1.0, 1e-6);
     EXPECT_GT(point.weight, 0.0);
     EXPECT_LE(point.weight, 1.0);
@@ -108,7 +107,8 @@ TEST(SegmentAssociation, FindsTheWallsOfABox) {
 TEST(SegmentAssociation, LeavesOutPointsWithoutPlanes) {
   const MapPyramid map = BoxMap(200000, 1);
   Segment segment(200, 3);
-  for (std::size_t i = 0; i < segment.points.size(); i += 2) segment.points[i].p_body_m *= 20.0F;
+  for (std::size_t i = 0; i < segment.cloud.registration_points.size(); i += 2)
+    segment.cloud.registration_points[i].p_body_m *= 20.0F;
   ThreadPool threads(1);
   Found found;
   EXPECT_EQ(segment.Associate(map, &threads, &found), 200);
@@ -117,7 +117,7 @@ TEST(SegmentAssociation, LeavesOutPointsWithoutPlanes) {
   for (const RegistrationPoint& point : found.points) {
     EXPECT_LT(point.p_body_m.norm(), 20.0);
   }
-  segment.points.clear();
+  segment.cloud.registration_points.clear();
   Found nothing;
   EXPECT_EQ(segment.Associate(map, &threads, &nothing), 0);
   EXPECT_TRUE(nothing.points.empty());
@@ -156,7 +156,7 @@ TEST(SegmentAssociation, LooksUpAgainOnlyPointsThatLeftTheirCell) {
   const Eigen::Vector3d step(0.05, 0.0, 0.0);
   int left = 0;
   const SegmentMotion motion(segment.T_begin, segment.T_end);
-  for (const SegmentPoint& point : segment.points) {
+  for (const SegmentPoint& point : segment.cloud.registration_points) {
     const Eigen::Vector3d p = motion.ToWorld(point.alpha, point.p_body_m.cast<double>());
     left += map.IsAround(p + step, map.CellOf(p)) ? 0 : 1;
   }
@@ -217,8 +217,8 @@ TEST(SegmentAssociation, ASegmentThatHasNotMovedKeepsItsPlanes) {
     Vector6d tau = Vector6d::Zero();
     tau[0] = x_m;
     tau[5] = yaw_rad;
-    const std::size_t chunks = found.association.Begin(
-        segment.points, segment.origins, segment.T_begin, Plus(segment.T_end, tau), map, tolerance);
+    const std::size_t chunks = found.association.Begin(segment.cloud, segment.T_begin,
+                                                       Plus(segment.T_end, tau), map, tolerance);
     for (std::size_t i = 0; i < chunks; ++i) found.association.Look(i);
     return found.association.Finish(&found.points);
   };
@@ -287,11 +287,12 @@ TEST(SegmentAssociation, JudgesGrazingByTheRayFromThePointsOwnLidar) {
   map.Insert(testing::MapPoints(walls));
   ThreadPool threads(1);
   const Eigen::Vector3d middle = hit + 0.15 / ray.x() * ray;
-  const std::vector<SegmentPoint> points = {{middle.cast<float>(), 0.5F, 1}};
   const auto normal = [&](const Eigen::Vector3d& origin) {
+    SegmentCloud cloud;
+    cloud.lidar_origins_body_m = {Eigen::Vector3d::Zero(), origin};
+    cloud.registration_points = {{middle.cast<float>(), 0.5F, 1}};
     Found found;
-    found.association.Associate(points, {Eigen::Vector3d::Zero(), origin}, SE3(), SE3(), map,
-                                &threads, &found.points);
+    found.association.Associate(cloud, SE3(), SE3(), map, &threads, &found.points);
     return found.points.at(0).normal_world;
   };
   EXPECT_GT(std::abs(normal(lidar).x()), 0.9) << "the wall";
