@@ -15,22 +15,12 @@ namespace {
 /// what is seen on a road agrees with rest, too.
 constexpr double kSlow_m_s = 1.0;
 
-std::vector<SE3> ConstantTwist(const std::vector<SegmentCloud>& segments,
-                               const Vector6d& velocity) {
-  std::vector<SE3> poses = {SE3()};
-  for (const SegmentCloud& segment : segments) {
-    poses.push_back(Plus(poses.back(), velocity * segment.Duration_s()));
-  }
-  return poses;
-}
-
 /// As a tracker follows the body, if it can.
 std::optional<std::vector<SE3>> Followed(const std::vector<SegmentCloud>& segments,
                                          const Vector6d& velocity, const OdometryOptions& options,
                                          const WindowSolverFactory& make_solver,
                                          ThreadPool* threads) {
-  RigCalibration rig(false);
-  Tracker tracker(options, make_solver, threads, &rig);
+  Tracker tracker(options, make_solver, threads);
   tracker.BeginMap({segments.front()}, ConstantTwist({segments.front()}, velocity), velocity, 0);
   for (std::size_t k = 1; k < segments.size(); ++k) {
     SegmentCloud segment = segments[k];
@@ -47,6 +37,15 @@ std::optional<std::vector<SE3>> Followed(const std::vector<SegmentCloud>& segmen
 }
 
 }  // namespace
+
+std::vector<SE3> ConstantTwist(const std::vector<SegmentCloud>& segments,
+                               const Vector6d& velocity) {
+  std::vector<SE3> poses = {SE3()};
+  for (const SegmentCloud& segment : segments) {
+    poses.push_back(Plus(poses.back(), velocity * segment.Duration_s()));
+  }
+  return poses;
+}
 
 std::vector<SE3> FindFirstPoses(const std::vector<SegmentCloud>& segments, const Vector6d& velocity,
                                 const OdometryOptions& options,

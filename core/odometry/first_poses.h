@@ -10,6 +10,10 @@
 
 namespace trajlo {
 
+/// The control poses of `segments` at a constant twist ([rho; theta] per second, body frame): one
+/// more than segments, the first of them the identity.
+std::vector<SE3> ConstantTwist(const std::vector<SegmentCloud>& segments, const Vector6d& velocity);
+
 /// The control poses of the first interval of a recording that begins in motion: one more than
 /// `segments`, the first of them the identity. `velocity` is the mean one, [rho; theta] per second,
 /// body frame, as far as it is known.

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "core/odometry/first_poses.h"
 #include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/start/beginning.h"
 #include "core/odometry/start/coarse_to_fine.h"
@@ -67,14 +68,10 @@ class Follower {
       : direction_(direction),
         begin_m_s_(speed_m_s),
         speed_m_s_(speed_m_s),
-        tracker_(options, make_solver, threads, &rig_) {
+        tracker_(options, make_solver, threads) {
     velocity.head<3>() += (speed_m_s - velocity.head<3>().dot(direction)) * direction;
-    std::vector<SE3> poses = {SE3()};
-    for (const SegmentCloud& segment : first) {
-      poses.push_back(Plus(poses.back(), velocity * segment.Duration_s()));
-    }
     tracker_.StayLost();
-    tracker_.BeginMap(first, poses, velocity, 0);
+    tracker_.BeginMap(first, ConstantTwist(first, velocity), velocity, 0);
   }
 
   /// Returns the points of the segment that lie on planes which do not face the direction.
@@ -118,7 +115,6 @@ class Follower {
   double facing_ = 0.0, agreeing_ = 0.0;
   std::map<Cell, int> seen_;
   int places_ = 0;
-  RigCalibration rig_{false};
   Tracker tracker_;
 };
 

@@ -204,7 +204,7 @@ void Tracker::SmoothBack(WindowStatistics* statistics) {
 void Tracker::Leave(WindowStatistics* statistics) {
   Stopwatch watch;
   SettleFront();
-  rig_->Learn(window_);
+  if (rig_ != nullptr) rig_->Learn(window_);
   const SE3 T_begin = window_.T_world_begin;
   const Segment& front = window_.segments.front();
   // What no plane agrees with may be a hand before the LiDAR; but the first points agree with

@@ -25,9 +25,9 @@ namespace trajlo {
 /// begin with, and a new place where it loses the body.
 class Tracker {
  public:
-  /// `threads` and `rig`, which learns from every segment that leaves, must outlive it.
+  /// `threads` must outlive it, and so must `rig`, which learns from every segment that leaves.
   Tracker(const OdometryOptions& options, const WindowSolverFactory& make_solver,
-          ThreadPool* threads, RigCalibration* rig);
+          ThreadPool* threads, RigCalibration* rig = nullptr);
 
   /// A body in doubt is not looked for elsewhere in the map: of many trackers that try something,
   /// the wrong ones may as well stay lost.
