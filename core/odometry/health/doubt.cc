@@ -56,40 +56,43 @@ bool IsBehindPause(const Window& window) {
 
 void DoubtWatch::Update(const Window& window, const WindowStatistics& statistics,
                         const Vector6d& density) {
-  const bool has_jumped = (statistics.flags & kFlagJump) != 0;
-  unsigned unheld =
-      statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate | kFlagJump);
-  // At the right place behind a pause, a window settles.
-  if (statistics.IsRestless() && IsBehindPause(window) && MayHaveMoved(window.EndNs(), density)) {
-    unheld |= kFlagGap;
-  }
+  const unsigned unheld = WhyUnheld(window, statistics, density);
   // At first, points that agree and leave a direction open are no reason for doubt.
   const bool began = held_until_ns_ || (unheld & ~kFlagDegenerate) != 0;
   if (unheld == 0 || !began) held_until_ns_ = window.EndNs();
   is_held_ = unheld == 0;
   if (!is_held_) {
+    const bool has_jumped = (unheld & kFlagJump) != 0;
     if (flags_ != 0 || has_jumped || MayHaveMoved(window.EndNs(), density)) {
-      if (flags_ == 0) {
-        began_ns_ = window.EndNs();
-        density_ = density;
-      }
-      flags_ = unheld;
-      causes_ |= unheld;
-      if (const auto axis = CommonNormal(window.segments.back())) open_axis_world_ = axis;
-      if (held_until_ns_) {
-        unseen_s_ = std::max(unseen_s_, Seconds(window.EndNs() - *held_until_ns_));
-      }
+      Doubt(unheld, window, density);
     }
   } else if (flags_ == 0) {
-    const double usual = usual_agreement_.value_or(kAgreementAtFirst);
+    const double usual = UsualAgreement();
     usual_agreement_ = usual + (statistics.agreement - usual) / kWindows;
-  } else if (statistics.has_converged && std::all_of(window.segments.begin(), window.segments.end(),
-                                                     [&](const Segment& segment) {
-                                                       return Agrees(window, segment, kToTrust,
-                                                                     kAsUsual);
-                                                     })) {
+  } else if (statistics.has_converged && AllAgree(window)) {
     Dispel(window.EndNs());
   }
+}
+
+unsigned DoubtWatch::WhyUnheld(const Window& window, const WindowStatistics& statistics,
+                               const Vector6d& density) const {
+  const unsigned unheld =
+      statistics.flags & (kFlagNoPoints | kFlagReverted | kFlagDegenerate | kFlagJump);
+  // At the right place behind a pause, a window settles.
+  const bool is_behind_pause =
+      statistics.IsRestless() && IsBehindPause(window) && MayHaveMoved(window.EndNs(), density);
+  return unheld | (is_behind_pause ? kFlagGap : 0U);
+}
+
+void DoubtWatch::Doubt(unsigned unheld, const Window& window, const Vector6d& density) {
+  if (flags_ == 0) {
+    began_ns_ = window.EndNs();
+    density_ = density;
+  }
+  flags_ = unheld;
+  causes_ |= unheld;
+  if (const auto axis = CommonNormal(window.segments.back())) open_axis_world_ = axis;
+  if (held_until_ns_) unseen_s_ = std::max(unseen_s_, Seconds(window.EndNs() - *held_until_ns_));
 }
 
 std::optional<StepSize> DoubtWatch::Reach(double agreement) const {
@@ -111,8 +114,10 @@ bool DoubtWatch::MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const 
   return trajlo::MayHaveMoved(density, Seconds(t_ns - *held_until_ns_), kMoved_m, kMoved_rad);
 }
 
+double DoubtWatch::UsualAgreement() const { return usual_agreement_.value_or(kAgreementAtFirst); }
+
 bool DoubtWatch::IsContradicted(double agreement) const {
-  return agreement < kNoContradiction * usual_agreement_.value_or(kAgreementAtFirst);
+  return agreement < kNoContradiction * UsualAgreement();
 }
 
 bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const {
@@ -128,8 +133,13 @@ bool DoubtWatch::MayEnterMap(const Window& window, const Segment& segment) const
 bool DoubtWatch::Agrees(const Window& window, const Segment& segment, double on_map,
                         double of_usual) const {
   const MapAgreement agreement = AgreementOf(window, segment);
-  return agreement.on_map >= on_map &&
-         agreement.worst >= of_usual * usual_agreement_.value_or(kAgreementAtFirst);
+  return agreement.on_map >= on_map && agreement.worst >= of_usual * UsualAgreement();
+}
+
+bool DoubtWatch::AllAgree(const Window& window) const {
+  return std::all_of(window.segments.begin(), window.segments.end(), [&](const Segment& segment) {
+    return Agrees(window, segment, kToTrust, kAsUsual);
+  });
 }
 
 }  // namespace trajlo

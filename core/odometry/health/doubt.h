@@ -45,9 +45,16 @@ class DoubtWatch {
   bool MayEnterMap(const Window& window, const Segment& segment) const;
 
  private:
+  /// Flags; 0 if the newest pose is held.
+  unsigned WhyUnheld(const Window& window, const WindowStatistics& statistics,
+                     const Vector6d& density) const;
+  /// The newest pose is in doubt, since it or since earlier.
+  void Doubt(unsigned unheld, const Window& window, const Vector6d& density);
   bool MayHaveMoved(std::int64_t t_ns, const Vector6d& density) const;
+  double UsualAgreement() const;
   /// At least these shares, of all points on the map and of the usual agreement.
   bool Agrees(const Window& window, const Segment& segment, double on_map, double of_usual) const;
+  bool AllAgree(const Window& window) const;
 
   unsigned flags_ = 0;
   unsigned causes_ = 0;                  ///< All flags since the doubt began.
