@@ -81,7 +81,7 @@ class Follower {
     if (is_lost_) return {};
     std::vector<RegistrationPoint> along;
     const Segment& newest = window->segments.back();
-    const SegmentMotion motion(window->Pose(window->size() - 1), newest.T_world_end);
+    const SegmentMotion motion = window->Motion(window->size() - 1);
     for (const RegistrationPoint& point : newest.points) {
       const Eigen::Vector3d p_world = motion.ToWorld(point.alpha, point.p_body_m);
       const bool agrees = std::abs(point.DistanceToPlane(p_world)) < kAgreement_m;

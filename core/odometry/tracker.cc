@@ -193,8 +193,7 @@ void Tracker::SmoothBack(WindowStatistics* statistics) {
     WindowStatistics rounds;
     estimator_.AssociateAndSolve(map_, &joined, &rounds);
     estimator_.LeaveOutUnsupported(start, &joined, &rounds);
-    statistics->milliseconds_associate += rounds.milliseconds_associate;
-    statistics->milliseconds_solve += rounds.milliseconds_solve;
+    statistics->AddTimes(rounds);
     if (!rounds.is_finite) return std::nullopt;
     return joined;
   });

@@ -44,21 +44,17 @@ void WindowEstimator::Reassociate(const MapPyramid& map, const std::vector<SE3>&
   motion_prior->UntieRotation(window);
   WindowStatistics again;
   again.restless = s->restless;
-  // Both looks take time, whichever is kept.
-  again.milliseconds_associate = s->milliseconds_associate;
-  again.milliseconds_solve = s->milliseconds_solve;
   AssociateAndSolve(map, window, &again);
   const bool is_better = again.is_finite && again.agreement > s->agreement;
   if (is_better && !IsUnsupported(*window, newest)) {
     motion_prior->Apply(window);
     motion_prior->Follow(MeasureInnovation(*window, predicted.back()));
     motion_prior->Apply(window);
-    *s = again;
+    std::swap(*s, again);
   } else {
     *window = std::move(first);
-    s->milliseconds_associate = again.milliseconds_associate;
-    s->milliseconds_solve = again.milliseconds_solve;
   }
+  s->AddTimes(again);  // Both looks take time, whichever is kept.
 }
 
 void WindowEstimator::LeaveOutUnsupported(const std::vector<SE3>& predicted, Window* window,

@@ -27,11 +27,11 @@ bool InlierWatch::HasFew(const WindowStatistics& window) {
   const std::int64_t usual_since_ns = window.end_ns - kUsual_ns;
   recent_.push_back({window.end_ns, share, window.agreement});
   while (recent_.front().end_ns < usual_since_ns) recent_.pop_front();
-  return window.HasFewInliers() || share < kFewOfUsual * Usual(&Window::share, usual_since_ns) ||
-         Usual(&Window::agreement, window.end_ns - kAgreeing_ns) < kMinAgreement;
+  return window.HasFewInliers() || share < kFewOfUsual * Usual(&Past::share, usual_since_ns) ||
+         Usual(&Past::agreement, window.end_ns - kAgreeing_ns) < kMinAgreement;
 }
 
-double InlierWatch::Usual(double Window::*value, std::int64_t begin_ns) const {
+double InlierWatch::Usual(double Past::*value, std::int64_t begin_ns) const {
   std::vector<double> values;
   for (auto window = recent_.rbegin(); window != recent_.rend(); ++window) {
     if (window->end_ns < begin_ns) break;

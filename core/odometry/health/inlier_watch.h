@@ -21,15 +21,15 @@ class InlierWatch {
   bool HasFew(const WindowStatistics& window);
 
  private:
-  struct Window {
+  struct Past {
     std::int64_t end_ns;
     double share;
     double agreement;
   };
   /// The lower median since `begin_ns`.
-  double Usual(double Window::*value, std::int64_t begin_ns) const;
+  double Usual(double Past::*value, std::int64_t begin_ns) const;
 
-  std::deque<Window> recent_;  ///< Those of the last ten seconds.
+  std::deque<Past> recent_;  ///< Those of the last ten seconds.
 };
 
 }  // namespace trajlo

@@ -51,11 +51,11 @@ bool LossWatch::TooFewSettled(const WindowStatistics& window) {
     recent_.pop_front();
     span_is_full_ = true;
   }
-  return span_is_full_ && (Share(&Window::is_unsettled) > kMaxUnsettledShare ||
-                           Share(&Window::is_doubtful) > kMaxDoubtfulShare);
+  return span_is_full_ && (Share(&Past::is_unsettled) > kMaxUnsettledShare ||
+                           Share(&Past::is_doubtful) > kMaxDoubtfulShare);
 }
 
-double LossWatch::Share(bool Window::*what) const {
+double LossWatch::Share(bool Past::*what) const {
   const auto those = std::count_if(recent_.begin(), recent_.end(), std::mem_fn(what));
   return static_cast<double>(those) / static_cast<double>(recent_.size());
 }

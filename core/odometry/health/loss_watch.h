@@ -18,17 +18,17 @@ class LossWatch {
   std::optional<std::int64_t> Update(const WindowStatistics& window);
 
  private:
-  struct Window {
+  struct Past {
     std::int64_t end_ns;
     bool is_unsettled;
     bool is_doubtful;  ///< Unsettled, and a flag speaks against its pose.
   };
   bool TooFewInliers(const WindowStatistics& window);
   bool TooFewSettled(const WindowStatistics& window);
-  double Share(bool Window::*what) const;
+  double Share(bool Past::*what) const;
 
   std::optional<std::int64_t> few_since_ns_;
-  std::deque<Window> recent_;  ///< Those of the last three seconds, twenty at least.
+  std::deque<Past> recent_;  ///< Those of the last three seconds, twenty at least.
   bool span_is_full_ = false;
 };
 

@@ -31,7 +31,7 @@ constexpr double kOnPlane_m = 0.2;
 template <typename F>
 void ForEachPoint(const Window& window, const Segment& segment, std::size_t stride, F f) {
   const auto k = static_cast<int>(&segment - window.segments.data());
-  ForEachDistance(segment.points, SegmentMotion(window.Pose(k), segment.T_world_end), stride,
+  ForEachDistance(segment.points, window.Motion(k), stride,
                   [&](const RegistrationPoint& point, double distance_m) {
                     f(point, std::abs(distance_m) < kOnPlane_m);
                   });

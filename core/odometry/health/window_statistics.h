@@ -82,6 +82,11 @@ struct WindowStatistics {
 
   /// One more round of the window.
   void Add(const SolveSummary& solve, const SolverOptions& options);
+  /// Adds the times of other rounds of the same window.
+  void AddTimes(const WindowStatistics& other) {
+    milliseconds_associate += other.milliseconds_associate;
+    milliseconds_solve += other.milliseconds_solve;
+  }
   /// Whether another round is due.
   bool GoesOn(int max_rounds) const { return rounds < max_rounds && !has_converged && is_finite; }
 

@@ -9,11 +9,8 @@ namespace trajlo {
 
 /// A bounded number of threads. Work is handed out by index and every index writes its own result,
 /// so that no result depends on how many threads there are. Built on oneTBB, whose headers only the
-/// source includes: each file that does takes a second longer to compile.
-///
-/// A pool of our own whose threads wait actively, for 0.05 to 1 ms, was no faster: two threads took
-/// 0.74 to 0.79 of the time of one (hall_os1_16), and 0.76 with oneTBB. The rest is what one thread
-/// does alone, not the waking.
+/// source includes: each file that does takes a second longer to compile. (A pool of our own whose
+/// threads wait actively was no faster.)
 class ThreadPool {
  public:
   /// `threads` = 0 takes all cores; more threads than cores are never made.

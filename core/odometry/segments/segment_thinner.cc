@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/odometry/segments/choose_evenly.h"
-#include "core/scans/nanoseconds.h"
 
 namespace trajlo {
 namespace {
@@ -20,9 +19,8 @@ void SegmentThinner::Thin(const std::vector<SegmentPoint>& points, SegmentCloud*
   map_filter_.Filter(points, &cloud->map_points);
   std::vector<SegmentPoint>* registered = &cloud->registration_points;
   filter_.Filter(cloud->map_points, registered);
-  const double since_s = Seconds(cloud->end_ns - cloud->begin_ns);
   usual_cells_ = std::max(static_cast<double>(registered->size()),
-                          usual_cells_ * std::exp(-since_s / kMemory_s));
+                          usual_cells_ * std::exp(-cloud->Duration_s() / kMemory_s));
   if (usual_cells_ < kFewCells) fine_filter_.Filter(cloud->map_points, registered);
   if (max_points_ > 0) *registered = ChooseEvenly(*registered, max_points_);
 }

@@ -62,7 +62,7 @@ class Halves {
   int Agreeing() const {
     int count = 0;
     for (int k = 0; k < window_.size(); ++k) {
-      ForEachDistance(window_.At(k).points, SegmentMotion(window_.Pose(k), window_.Pose(k + 1)), 1,
+      ForEachDistance(window_.At(k).points, window_.Motion(k), 1,
                       [&](const RegistrationPoint&, double distance_m) {
                         count += std::abs(distance_m) < kAgreement_m ? 1 : 0;
                       });

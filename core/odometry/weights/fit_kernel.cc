@@ -11,7 +11,6 @@
 #include "core/odometry/segments/choose_evenly.h"
 #include "core/odometry/window/kernel_axes.h"
 #include "core/scans/median.h"
-#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 namespace {
@@ -71,7 +70,7 @@ std::array<std::vector<WeighedDistance>, 3> DistancesByAxis(const Window& window
   std::array<std::vector<WeighedDistance>, 3> distances;
   for (int k = 0; k < window.size(); ++k) {
     const Segment& segment = window.At(k);
-    const SegmentMotion motion(window.Pose(k), segment.T_world_end);
+    const SegmentMotion motion = window.Motion(k);
     for (const RegistrationPoint& point : segment.points) {
       std::size_t& passes = to_pass[point.axis];
       if (point.weight == 0.0 || passes-- > 0) continue;

@@ -120,10 +120,7 @@ Window IntervalSmoother::JoinInterpolated(const Window& newest) const {
   return joined;
 }
 
-void IntervalSmoother::SetPoses(const Window& joined) {
-  stretch_.T_world_begin = joined.T_world_begin;
-  for (int k = 0; k < stretch_.size(); ++k) stretch_.At(k).T_world_end = joined.At(k).T_world_end;
-}
+void IntervalSmoother::SetPoses(const Window& joined) { stretch_.SetPoses(joined.Poses()); }
 
 LeavingPose IntervalSmoother::TakeOldest(const MarginalizationOptions& options,
                                          const MotionPrior& motion_prior) {

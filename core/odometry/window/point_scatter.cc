@@ -24,8 +24,7 @@ double PointScatter(const Window& window) {
   std::vector<double> sampled;
   for (int k = 0; k < window.size(); ++k) {
     const Segment& segment = window.At(k);
-    ForEachDistance(segment.points, SegmentMotion(window.Pose(k), segment.T_world_end),
-                    StrideForAbout(kAsked, segment.points.size()),
+    ForEachDistance(segment.points, window.Motion(k), StrideForAbout(kAsked, segment.points.size()),
                     [&](const RegistrationPoint&, double distance_m) {
                       sampled.push_back(std::abs(distance_m));
                     });

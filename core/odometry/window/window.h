@@ -14,7 +14,7 @@
 #include "factors/segment_linearizer.h"
 #include "factors/smoothness.h"
 #include "factors/white_noise_acceleration.h"
-#include "manifolds/se3.h"
+#include "manifolds/se3_interpolation.h"
 
 namespace trajlo {
 
@@ -68,12 +68,15 @@ struct Window {
   /// The K+1 control poses, oldest first.
   const SE3& Pose(int k) const { return k == 0 ? T_world_begin : At(k - 1).T_world_end; }
   const SE3& EndPose() const { return Pose(size()); }
+  /// The motion of the body over segment k.
+  SegmentMotion Motion(int k) const { return {Pose(k), Pose(k + 1)}; }
   std::vector<SE3> Poses() const {
     std::vector<SE3> poses = {T_world_begin};
     for (const Segment& segment : segments) poses.push_back(segment.T_world_end);
     return poses;
   }
   std::int64_t EndNs() const { return segments.empty() ? begin_ns : segments.back().cloud.end_ns; }
+  /// `poses` may be more than these.
   void SetPoses(const std::vector<SE3>& poses) {
     T_world_begin = poses.front();
     for (std::size_t k = 0; k < segments.size(); ++k) segments[k].T_world_end = poses[k + 1];
