@@ -226,16 +226,14 @@ void Odometry::Step(SegmentCloud cloud) {
 }
 
 /// From the end of the window on, nobody knows where the body is.
-void Odometry::BeginSearch() {
-  search_.emplace(tracker_.WhereLastSeen(), tracker_.attitude(), options_);
-}
+void Odometry::BeginSearch() { search_.emplace(tracker_.WhereLastSeen(), options_); }
 
 /// Looks for the newest points in the map.
 void Odometry::Search(bool is_last) {
   const ReturnSweep sweep = search_->Look(tracker_.map(), &threads_);
   const LastSeen& last = search_->last();
   const double unseen_s = Seconds(sweep.cloud.begin_ns - last.supported_until_ns);
-  if (sweep.T_world_begin && IsWithinReach(last.T_world_body, *sweep.T_world_begin, unseen_s)) {
+  if (sweep.found && IsWithinReach(last.T_world_body, sweep.found->T_world_begin, unseen_s)) {
     Resume(sweep);
   } else if (!tracker_.was_held()) {
     BeginAgain(sweep);
@@ -246,7 +244,7 @@ void Odometry::Search(bool is_last) {
 
 /// The place is found: a new window begins there, and takes what has come since.
 void Odometry::Resume(const ReturnSweep& sweep) {
-  tracker_.Resume(sweep);
+  tracker_.Resume(sweep.cloud, *sweep.found);
   std::vector<SegmentCloud> segments = search_->TakeSegments();
   search_.reset();
   // A scan of one time is in the map already.

@@ -283,31 +283,36 @@ void Tracker::ForgetMap(std::int64_t end_ns) {
 }
 
 LastSeen Tracker::WhereLastSeen() const {
-  return {support_.supported_until_ns(), window_.EndNs(),         window_.EndPose(),
-          window_.EndVelocity(),         motion_prior_.density(), TurnAxis()};
+  const SE3& T_world_body = window_.EndPose();
+  return {support_.supported_until_ns(),
+          window_.EndNs(),
+          T_world_body,
+          attitude_.Levelled(T_world_body.q),
+          window_.EndVelocity(),
+          motion_prior_.density(),
+          TurnAxis()};
 }
 
-void Tracker::Resume(const ReturnSweep& found) {
-  const SegmentCloud& cloud = found.cloud;
-  EndWindow(cloud.begin_ns);
-  if (cloud.end_ns == cloud.begin_ns) leaving_.Settle();
-  leaving_.AddGap(cloud.begin_ns);
-  const SE3& T_world_begin = *found.T_world_begin;
-  window_ = MakeWindow(cloud.begin_ns, T_world_begin);
+void Tracker::Resume(const SegmentCloud& sweep, const SweepMotion& found) {
+  EndWindow(sweep.begin_ns);
+  if (sweep.is_instant) leaving_.Settle();
+  leaving_.AddGap(sweep.begin_ns);
+  const SE3& T_world_begin = found.T_world_begin;
+  window_ = MakeWindow(sweep.begin_ns, T_world_begin);
   window_.prior = AnchorOfFound(T_world_begin);
   window_.begin_flags = kFlagGap;
-  if (cloud.end_ns > cloud.begin_ns) {
-    window_.begin_velocity = found.tau / cloud.Duration_s();
+  if (!sweep.is_instant) {
+    window_.begin_velocity = found.tau / sweep.Duration_s();
   } else {
     // The mean velocity since the points held the body: all of that is settled by now.
     const std::int64_t seen_ns = support_.supported_until_ns();
     const SE3 T_world_seen = poses_.trajectory().At(seen_ns).value_or(T_world_begin);
-    window_.begin_velocity = Minus(T_world_begin, T_world_seen) / Seconds(cloud.begin_ns - seen_ns);
-    EnterMap(cloud, T_world_begin, T_world_begin, threads_, &map_);
+    window_.begin_velocity = Minus(T_world_begin, T_world_seen) / Seconds(sweep.begin_ns - seen_ns);
+    EnterMap(sweep, T_world_begin, T_world_begin, threads_, &map_);
   }
-  support_.Supported(cloud.begin_ns);
+  support_.Supported(sweep.begin_ns);
   motion_prior_.NoteGap();
-  doubt_.Dispel(cloud.begin_ns);
+  doubt_.Dispel(sweep.begin_ns);
   loss_watch_ = LossWatch();
 }
 

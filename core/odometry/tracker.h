@@ -65,9 +65,8 @@ class Tracker {
 
   /// What is known of the body, for a search.
   LastSeen WhereLastSeen() const;
-  const MeanAttitude& attitude() const { return attitude_; }
   /// Goes on where a sweep was found in the map.
-  void Resume(const ReturnSweep& found);
+  void Resume(const SegmentCloud& sweep, const SweepMotion& found);
   /// Forgets the map, in which the body could not be found again. What comes from `t_ns` on is a
   /// recording by itself.
   void Lose(std::int64_t t_ns);

@@ -95,9 +95,8 @@ SearchRegion ReturnSearch::Region(std::int64_t t_ns) const {
       Reach(last_.density[3], kTurnAcceleration_rad_s2, unseen_s) + kMinTurn_rad;
   region.max_turn_rad = std::min(turn_rad + turn_reach_rad, M_PI);
   region.q_world_body = {last_.T_world_body.q};
-  const Eigen::Quaterniond level = attitude_.Levelled(last_.T_world_body.q);
-  if (level.angularDistance(last_.T_world_body.q) > kSameTilt_rad) {
-    region.q_world_body.push_back(level);
+  if (last_.level_world_body.angularDistance(last_.T_world_body.q) > kSameTilt_rad) {
+    region.q_world_body.push_back(last_.level_world_body);
   }
   return region;
 }
@@ -106,18 +105,14 @@ ReturnSweep ReturnSearch::Look(const MapPyramid& map, ThreadPool* threads) {
   since_look_s_ = 0.0;
   ReturnSweep sweep;
   sweep.cloud = JoinSegments(segments_);
+  Vector6d tau = Vector6d::Zero();
   if (sweep.cloud.is_instant) {
     sweep.cloud.begin_ns = sweep.cloud.end_ns;
   } else {
-    sweep.tau =
-        sweep.cloud.Duration_s() * MotionOfFirstInterval(sweep.cloud, options_, threads).velocity;
+    tau = sweep.cloud.Duration_s() * MotionOfFirstInterval(sweep.cloud, options_, threads).velocity;
   }
-  const auto found = Relocalize(sweep.cloud, sweep.tau, map, Region(sweep.cloud.begin_ns),
-                                options_.registration, threads);
-  if (found) {
-    sweep.T_world_begin = found->T_world_begin;
-    sweep.tau = found->tau;
-  }
+  sweep.found = Relocalize(sweep.cloud, tau, map, Region(sweep.cloud.begin_ns),
+                           options_.registration, threads);
   return sweep;
 }
 

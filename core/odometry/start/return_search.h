@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/odometry/odometry_options.h"
-#include "core/odometry/start/mean_attitude.h"
 #include "core/odometry/start/relocalization.h"
 
 namespace trajlo {
@@ -17,16 +16,17 @@ struct LastSeen {
   std::int64_t supported_until_ns = 0;
   std::int64_t t_ns = 0;  ///< Of the pose.
   SE3 T_world_body;
+  /// The attitude without the tilt that it has more than the mean, see MeanAttitude.
+  Eigen::Quaterniond level_world_body = Eigen::Quaterniond::Identity();
   Vector6d velocity = Vector6d::Zero();  ///< [rho; theta] per second, body frame.
   Vector6d density = Vector6d::Zero();   ///< Of the acceleration, see MotionPrior.
   Eigen::Vector3d turn_axis_world = Eigen::Vector3d::UnitZ();  ///< See SearchRegion.
 };
 
-/// The newest points after a time unseen, and the motion during them.
+/// The newest points after a time unseen, and where they were measured, if that was found.
 struct ReturnSweep {
   SegmentCloud cloud;
-  Vector6d tau = Vector6d::Zero();   ///< Twist over the sweep.
-  std::optional<SE3> T_world_begin;  ///< If the place was found.
+  std::optional<SweepMotion> found;
 };
 
 /// The state of an odometry that does not know where it is, after a pause or while its LiDARs see
@@ -38,9 +38,9 @@ class ReturnSearch {
   /// When this much data has come and the place is not found, the estimator is lost.
   static constexpr double kMaxSearch_s = 5.0;
 
-  /// `attitude` and `options` must outlive it.
-  ReturnSearch(const LastSeen& last, const MeanAttitude& attitude, const OdometryOptions& options)
-      : last_(last), attitude_(attitude), options_(options) {}
+  /// `options` must outlive it.
+  ReturnSearch(const LastSeen& last, const OdometryOptions& options)
+      : last_(last), options_(options) {}
 
   const LastSeen& last() const { return last_; }
   /// A segment, or a gap: what came before one is of no use.
@@ -62,7 +62,6 @@ class ReturnSearch {
   SearchRegion Region(std::int64_t t_ns) const;
 
   LastSeen last_;
-  const MeanAttitude& attitude_;
   const OdometryOptions& options_;
   std::vector<SegmentCloud> segments_;  ///< In a row; the first one has points.
   double searched_s_ = 0.0;             ///< Time with points since then.

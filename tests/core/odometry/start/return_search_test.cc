@@ -31,8 +31,7 @@ SegmentCloud Gap(std::int64_t begin_ns) {
 
 class Searching {
  public:
-  explicit Searching(double density_m2_s3 = 0.5)
-      : search_(Last(density_m2_s3), attitude_, options_) {}
+  explicit Searching(double density_m2_s3 = 0.5) : search_(Last(density_m2_s3), options_) {}
 
   void Add(int segments) {
     for (int i = 0; i < segments; ++i) {
@@ -57,7 +56,6 @@ class Searching {
     return last;
   }
 
-  MeanAttitude attitude_;
   OdometryOptions options_;
   ReturnSearch search_;
   std::int64_t t_ns_ = 0;
