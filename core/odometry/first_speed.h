@@ -24,9 +24,9 @@ namespace trajlo {
 /// tracker's world the surfaces that face the direction are seen again and again. A world is larger
 /// than the traffic on it.
 ///
-/// Another speed is taken only if it has clearly more places than any other that ends elsewhere, and
-/// most of what faces the direction agrees with it as it does with `found`: a world that moves has
-/// ever new places, and before a long row of houses chance finds some again.
+/// Another speed is taken only if it has clearly more places than any other that ends elsewhere,
+/// and most of what faces the direction agrees with it as it does with `found`: a world that moves
+/// has ever new places, and before a long row of houses chance finds some again.
 FirstMotion FindFirstSpeed(const std::vector<SegmentCloud>& segments, std::size_t in_interval,
                            const FirstMotion& found, const OdometryOptions& options,
                            const WindowSolverFactory& make_solver, ThreadPool* threads);

@@ -7,9 +7,9 @@
 #include <map>
 
 #include "core/odometry/start/coarse_to_fine.h"
-#include "core/odometry/window/facing.h"
 #include "core/odometry/window/association.h"
 #include "core/odometry/window/enter_map.h"
+#include "core/odometry/window/facing.h"
 #include "factors/plane_distances.h"
 
 namespace trajlo {
