@@ -3,7 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/export/kd_tree_index.h"
+#include "core/odometry/map/kd_tree_index.h"
 
 namespace trajlo {
 namespace {

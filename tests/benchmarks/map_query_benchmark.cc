@@ -28,8 +28,9 @@ std::vector<Eigen::Vector3d> SurfacePoints(int count, unsigned seed) {
   return points;
 }
 
-void FindPlanes(benchmark::State& state, bool shared_planes, int levels) {
+void FindPlanes(benchmark::State& state, MapKind kind, bool shared_planes, int levels) {
   MapPyramidOptions options;
+  options.finest.kind = kind;
   options.finest.shared_planes = shared_planes;
   options.levels = levels;
   MapPyramid map(options);
@@ -51,10 +52,11 @@ void FindPlanes(benchmark::State& state, bool shared_planes, int levels) {
   state.SetItemsProcessed(asked);
   state.counters["found"] = static_cast<double>(found) / static_cast<double>(asked);
 }
-BENCHMARK_CAPTURE(FindPlanes, shared, true, 1);
-BENCHMARK_CAPTURE(FindPlanes, shared_pyramid, true, 4);
-BENCHMARK_CAPTURE(FindPlanes, own, false, 1);
-BENCHMARK_CAPTURE(FindPlanes, own_pyramid, false, 4);
+BENCHMARK_CAPTURE(FindPlanes, shared, MapKind::kVoxelHash, true, 1);
+BENCHMARK_CAPTURE(FindPlanes, shared_pyramid, MapKind::kVoxelHash, true, 4);
+BENCHMARK_CAPTURE(FindPlanes, own, MapKind::kVoxelHash, false, 1);
+BENCHMARK_CAPTURE(FindPlanes, own_pyramid, MapKind::kVoxelHash, false, 4);
+BENCHMARK_CAPTURE(FindPlanes, own_kd_tree, MapKind::kKdTree, false, 1);
 
 void InsertSegment(benchmark::State& state) {
   MapPyramid map(MapPyramidOptions{});

@@ -22,6 +22,7 @@ OdometryOptions RandomOptions(fuzz::ByteSource* bytes) {
   options.window.deskewing = bytes->OneOf({Deskewing::kEstimated, Deskewing::kPredicted});
   options.solver.kind = bytes->OneOf({SolverKind::kGaussNewton, SolverKind::kCeres});
   options.solver.max_rounds = bytes->OneOf({4, 1, 8});
+  options.map.finest.kind = bytes->OneOf({MapKind::kVoxelHash, MapKind::kKdTree});
   options.map.finest.shared_planes = !bytes->Bool();
   options.map.levels = bytes->OneOf({4, 1});
   options.marginalization.first_estimate_jacobians = bytes->Bool();

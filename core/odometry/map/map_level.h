@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/odometry/map/kd_tree_index.h"
 #include "core/odometry/map/plane_cells.h"
 #include "core/odometry/map/plane_fit.h"
 #include "core/odometry/map/voxel_hash_map.h"
@@ -11,7 +12,10 @@
 
 namespace trajlo {
 
+enum class MapKind { kVoxelHash, kKdTree };
+
 struct MapOptions {
+  MapKind kind = MapKind::kVoxelHash;
   double voxel_size_m = 0.3;
   double min_point_spacing_m = 0.12;
   double radius_m = 150.0;
@@ -19,6 +23,10 @@ struct MapOptions {
 
   template <typename Describer>
   void Describe(Describer& d) {
+    d(OptionFor::kExperts, "kind", kind,
+      Names<MapKind>{{"voxel_hash", MapKind::kVoxelHash}, {"kd_tree", MapKind::kKdTree}},
+      "voxel_hash is fast; kd_tree finds the exact neighbours, where the hash has five points "
+      "around.");
     d(OptionFor::kUsers, "voxel_size_m", voxel_size_m, Range<double>{1e-2, 20.0},
       "Edge of a voxel (paper: 0.4 m indoors, 0.8 m outdoors).");
     d(OptionFor::kExperts, "min_point_spacing_m", min_point_spacing_m, Range<double>{0.0, 10.0},
@@ -98,6 +106,7 @@ class MapLevel {
   PlaneFitOptions plane_;
   double cell_size_, inverse_cell_size_;
   VoxelHashMap points_;
+  std::optional<KdTreeIndex> tree_;
   std::optional<PlaneCells> cells_;
 };
 

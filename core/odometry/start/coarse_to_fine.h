@@ -20,6 +20,7 @@ inline double Coarseness(int round) { return std::max(1.0, 4.0 / (1 << (round / 
 
 inline MapPyramidOptions Coarsened(MapPyramidOptions map, double coarse) {
   map.finest.voxel_size_m *= coarse;
+  map.finest.kind = MapKind::kVoxelHash;  // Small maps, and many.
   return map;
 }
 

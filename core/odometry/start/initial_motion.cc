@@ -102,7 +102,9 @@ class FirstInterval {
   int points() const { return static_cast<int>(halves_.registration_points.size()); }
   double Duration_s() const { return cloud_.Duration_s(); }
 
-  MotionHypothesis At(const Vector6d& tau) const { return {halves_, tau, options_.map, threads_}; }
+  MotionHypothesis At(const Vector6d& tau) const {
+    return {halves_, tau, Coarsened(options_.map, 1.0), threads_};
+  }
 
   int VotesAlong(const Eigen::Vector3d& direction, const MotionHypothesis& hypothesis) const {
     return hypothesis.VotesAlong(direction, place_m_);
@@ -122,8 +124,9 @@ class FirstInterval {
     // The surfaces are those of the whole interval: it sees each of them better than a half does.
     SegmentCloud whole = halves_;
     whole.map_points = cloud_.map_points;
-    along.halves_.registration_points = MotionHypothesis(whole, tau, options_.map, threads_)
-                                            .TellingAlong(direction, halves_.registration_points);
+    along.halves_.registration_points =
+        MotionHypothesis(whole, tau, Coarsened(options_.map, 1.0), threads_)
+            .TellingAlong(direction, halves_.registration_points);
     return along;
   }
 

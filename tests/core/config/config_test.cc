@@ -25,10 +25,9 @@ using trajlo::testing::Overridden;
 using trajlo::testing::OverrideError;
 
 TEST(Config, SetsWhatTheFileSaysAndKeepsTheRest) {
-  const RunConfig config =
-      Loaded("window:\n  segments: 7\nexpert: {window: {deskewing: predicted}}\n");
+  const RunConfig config = Loaded("window:\n  segments: 7\nexpert: {map: {kind: kd_tree}}\n");
   EXPECT_EQ(config.odometry.window.segments, 7);
-  EXPECT_EQ(config.odometry.window.deskewing, Deskewing::kPredicted);
+  EXPECT_EQ(config.odometry.map.finest.kind, MapKind::kKdTree);
   EXPECT_EQ(config.odometry.map.finest.voxel_size_m, RunConfig().odometry.map.finest.voxel_size_m);
 }
 
@@ -111,7 +110,7 @@ TEST(Config, SectionWithAValueAndOptionWithASectionAreErrors) {
 }
 
 TEST(Config, BrokenYamlNamesTheLine) {
-  EXPECT_THAT(LoadingError("solver:\n  kind: [ceres\n"),
+  EXPECT_THAT(LoadingError("map:\n  kind: [kd_tree\n"),
               AllOf(StartsWith("my.yaml:3:"), HasSubstr("not valid YAML")));
   // Of these yaml-cpp makes empty documents without end.
   for (const char* text : {", a", ",", ", window: {segments: 3}"}) {
@@ -186,7 +185,9 @@ TEST(Overrides, ErrorsNameTheFlagAndTheKeyButNoLine) {
 
 TEST(Config, DumpLoadsBackToTheSameValues) {
   RunConfig config = Overridden(
-      "window.segments=3,expert.registration.kernel=tukey,expert.solver.ceres.trust_region=dogleg,"
+      "window.segments=3,expert.map.kind=kd_tree,expert.registration.kernel=tukey,expert.solver."
+      "ceres.trust_region="
+      "dogleg,"
       "registration.sigma_m=0.1234567890123456,expert.solver.ceres.initial_trust_region_radius=1e7,"
       "input.time_field='a \"b\": #c',input.stamps_file=x/y.txt,input.point_time=none,"
       "input.time_unit=us,input.stamp_at=end,expert.marginalization.enabled=false");

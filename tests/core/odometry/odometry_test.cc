@@ -204,6 +204,15 @@ TEST(Odometry, FinishAfterACallbackThrewInItHandsOnTheRest) {
   EXPECT_EQ(odometry.time_report().scans, scans);
 }
 
+TEST(Odometry, WorksOnTheKdTreeMapToo) {
+  SyntheticWorld world;
+  world.T_world_body = StartsAtRest;
+  OdometryOptions options = RoomOptions();
+  options.map.finest.kind = MapKind::kKdTree;
+  const RunResult run = RunOn(world, options, 15);
+  EXPECT_LT(LargestError(world, run.odometry->trajectory(), 1.45), 0.03);
+}
+
 TEST(Odometry, WorksWithFirstEstimates) {
   SyntheticWorld world;
   world.T_world_body = StartsAtRest;

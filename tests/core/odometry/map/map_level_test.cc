@@ -22,8 +22,9 @@ std::vector<Eigen::Vector3d> Floor(int count, double half, double roughness_m, u
   return points;
 }
 
-MapOptions Options(bool shared_planes) {
+MapOptions Options(MapKind kind, bool shared_planes) {
   MapOptions options;
+  options.kind = kind;
   options.shared_planes = shared_planes;
   return options;
 }
@@ -40,8 +41,10 @@ bool AreSame(const FittedPlane& a, const FittedPlane& b) {
          a.thickness_m == b.thickness_m && a.width_m == b.width_m;
 }
 
-TEST(MapLevel, SharedPlanesAreThoseOfTheCellsCentres) {
-  MapLevel shared(Options(true), {}), own(Options(false), {});
+class BothKinds : public ::testing::TestWithParam<MapKind> {};
+
+TEST_P(BothKinds, SharedPlanesAreThoseOfTheCellsCentres) {
+  MapLevel shared(Options(GetParam(), true), {}), own(Options(GetParam(), false), {});
   const auto floor = Floor(4000, 3.0, 0.01, 1);
   shared.Insert(testing::MapPoints(floor));
   own.Insert(testing::MapPoints(floor));
@@ -60,8 +63,11 @@ TEST(MapLevel, SharedPlanesAreThoseOfTheCellsCentres) {
   EXPECT_GT(found, 500);
 }
 
+INSTANTIATE_TEST_SUITE_P(Kinds, BothKinds,
+                         ::testing::Values(MapKind::kVoxelHash, MapKind::kKdTree));
+
 TEST(MapLevel, APlaneFollowsTheMapWhenItHasGrownByMoreThanAnEighth) {
-  MapOptions options = Options(true);
+  MapOptions options = Options(MapKind::kVoxelHash, true);
   options.min_point_spacing_m = 0.02;
   MapLevel level(options, {});
   const Eigen::Vector3d asked(0.05, 0.05, 0.05);
@@ -90,7 +96,7 @@ TEST(MapLevel, APlaneFollowsTheMapWhenItHasGrownByMoreThanAnEighth) {
 }
 
 TEST(MapLevel, APlaneIsGoneWithItsPoints) {
-  MapOptions options = Options(true);
+  MapOptions options = Options(MapKind::kVoxelHash, true);
   options.radius_m = 8.0;
   MapLevel level(options, {});
   level.Insert(testing::MapPoints(Floor(4000, 3.0, 0.01, 4)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/kd_tree_index.h"
+#include "core/odometry/map/kd_tree_index.h"
 
 #include <gtest/gtest.h>
 
@@ -47,16 +47,20 @@ TEST(KdTreeIndex, FindsTheNearestPoints) {
   Neighbors found;
   tree.Nearest({0, 0, 0}, 5, &found);
   EXPECT_EQ(found.count, 0);
-  std::vector<Eigen::Vector3d> stored = RandomPoints(4000, 8.0, Eigen::Vector3d::Zero(), 5);
-  tree.Add(MapPoints(stored));
-  for (const auto& query : RandomPoints(100, 8.0, Eigen::Vector3d::Zero(), 6)) {
-    std::sort(stored.begin(), stored.end(), [&](const auto& a, const auto& b) {
-      return (a - query).squaredNorm() < (b - query).squaredNorm();
-    });
-    tree.Nearest(query, 5, &found);
-    ASSERT_EQ(found.count, 5);
-    for (std::size_t i = 0; i < 5; ++i) {
-      EXPECT_NEAR(std::sqrt(found.squared_distance[i]), (stored[i] - query).norm(), 1e-5);
+  for (unsigned pass = 0; pass < 2; ++pass) {
+    std::vector<Eigen::Vector3d> stored =
+        RandomPoints(4000, 8.0, Eigen::Vector3d::Zero(), 5 + pass);
+    tree.Clear();
+    tree.Add(MapPoints(stored));
+    for (const auto& query : RandomPoints(100, 8.0, Eigen::Vector3d::Zero(), 6)) {
+      std::sort(stored.begin(), stored.end(), [&](const auto& a, const auto& b) {
+        return (a - query).squaredNorm() < (b - query).squaredNorm();
+      });
+      tree.Nearest(query, 5, &found);
+      ASSERT_EQ(found.count, 5);
+      for (int i = 0; i < 5; ++i) {
+        EXPECT_NEAR(std::sqrt(found.squared_distance[i]), (stored[i] - query).norm(), 1e-5);
+      }
     }
   }
 }

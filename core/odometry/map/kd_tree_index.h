@@ -9,14 +9,15 @@
 
 namespace trajlo {
 
-/// nanoflann's kd-tree over the points of a map: the k nearest of all of them, exactly. Also the
-/// oracle of the hash of voxels, in tests.
+/// nanoflann's kd-tree over the points of a map: the k nearest of all of them, exactly. Slower to
+/// build than a hash of voxels; the oracle of the hash, and a choice for comparisons.
 class KdTreeIndex {
  public:
   KdTreeIndex();
   ~KdTreeIndex();
 
   void Add(const std::vector<MapPoint>& points);
+  void Clear();
   void Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const;
 
  private:

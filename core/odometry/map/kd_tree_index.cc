@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/kd_tree_index.h"
+#include "core/odometry/map/kd_tree_index.h"
 
 #include <algorithm>
 #include <nanoflann.hpp>
@@ -37,6 +37,8 @@ void KdTreeIndex::Add(const std::vector<MapPoint>& points) {
   all.insert(all.end(), points.begin(), points.end());
   index_->tree.addPoints(first, all.size() - 1);
 }
+
+void KdTreeIndex::Clear() { index_ = std::make_unique<Index>(); }
 
 void KdTreeIndex::Nearest(const Eigen::Vector3d& query_world, int k, Neighbors* neighbors) const {
   std::size_t indices[kMaxNeighbors];
