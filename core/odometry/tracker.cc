@@ -168,7 +168,9 @@ void Tracker::LearnAndJudge(const SE3& T_world_predicted, WindowStatistics* stat
 /// Judges the window by those before it as well.
 void Tracker::Watch(WindowStatistics* statistics) {
   if (inlier_watch_.HasFew(*statistics)) statistics->flags |= kFlagFewInliers;
-  if (window_.is_believed && lone_object_.IsContradicted(window_)) {
+  const bool is_contradicted = window_.is_believed && lone_object_.IsContradicted(window_);
+  // That nothing holds the direction says as much.
+  if (is_contradicted && (statistics->flags & kFlagDegenerate) == 0) {
     statistics->flags |= kFlagLoneObject;
   }
   // These take time to show: they hold for all poses that are still here.
