@@ -13,7 +13,7 @@ namespace trajlo {
 /// all information along the way; the body seems to rest, as the truck does, and all points agree
 /// with that but those that pass by.
 ///
-/// The direction u is the one that fewest normals of the window face. Of the planes that face it, a
+/// The direction u is one that few normals of the window face. Of the planes that face it, a
 /// ball around the place with most information is the object. Over the last seconds,
 ///   - it has nearly all of Σ weight (nᵀu)² of the points that lie on such planes, and
 ///   - of the other points with such planes, few lie on them: less than half as many as of the

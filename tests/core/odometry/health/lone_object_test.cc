@@ -34,9 +34,9 @@ Window WindowAt(int i, const Seen& seen) {
   segment.cloud.begin_ns = window.begin_ns;
   segment.cloud.end_ns = window.begin_ns + std::llround(kWindow_s * 1e9);
   using Eigen::Vector3d;
-  for (int k = 0; k < 300; ++k) {
-    Add({0.1 * k, 5.0, 1.0}, Vector3d::UnitY(), 0.0, 1.0, &segment);
-    Add({0.1 * k, 1.0, -2.0}, Vector3d::UnitZ(), 0.0, 1.0, &segment);
+  for (int k = 0; k < 800; ++k) {
+    Add({0.04 * k, 5.0, 1.0}, Vector3d::UnitY(), 0.0, 1.0, &segment);
+    Add({0.04 * k, 1.0, -2.0}, Vector3d::UnitZ(), 0.0, 1.0, &segment);
   }
   for (int k = 0; k < seen.truck; ++k) {
     const double y = 3.0 * (k + 0.5) / seen.truck - 1.5;
@@ -94,6 +94,13 @@ TEST(LoneObject, TwoObjectsFarApartAreNotAlone) {
 TEST(LoneObject, WherePointsAreNoisyThoseOfTheObjectAreToo) {
   Seen seen;
   seen.truck_m = 0.1;
+  EXPECT_EQ(Road().Noticed(100, seen), 0);
+}
+
+TEST(LoneObject, ADirectionThatManyNormalsFaceIsHeldByMore) {
+  Seen seen;
+  seen.truck = 150;
+  seen.passing = 10;
   EXPECT_EQ(Road().Noticed(100, seen), 0);
 }
 
