@@ -2,7 +2,6 @@
 #include "core/odometry/first_speed.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "core/odometry/start/beginning.h"
 #include "core/odometry/start/coarse_to_fine.h"
 #include "core/odometry/tracker.h"
+#include "core/odometry/window/cube.h"
 #include "core/odometry/window/facing.h"
 
 namespace trajlo {
@@ -48,16 +48,9 @@ constexpr double kToBelieve = 0.6;
 /// are too many, and dear.
 constexpr std::size_t kTelling = 1200, kTellingInMap = 2500;
 constexpr std::size_t kHolding = 400, kHoldingInMap = 1000;
-/// Map points around those that do not tell the speed do not tell it, either: in cells of this
+/// Map points around those that do not tell the speed do not tell it, either: in cubes of this
 /// edge.
 constexpr double kAround_m = 0.4;
-
-using Cell = std::array<int, 3>;
-
-Cell CellOf(const Eigen::Vector3d& p, double edge_m) {
-  const VoxelKey key = VoxelAt(p, 1.0 / edge_m);
-  return {key.x(), key.y(), key.z()};
-}
 
 /// A tracker that began with some speed along the direction, and what it saw again.
 class Follower {
@@ -88,7 +81,7 @@ class Follower {
       if (IsFacing(point, direction_)) {
         ++facing_;
         agreeing_ += agrees ? 1 : 0;
-        if (agrees && ++seen_[CellOf(p_world, kPlace_m)] == kSeenAgain) ++places_;
+        if (agrees && ++seen_[CubeAt(p_world, kPlace_m)] == kSeenAgain) ++places_;
       } else if (agrees) {
         along.push_back(point);
       }
@@ -113,7 +106,7 @@ class Follower {
   double speed_m_s_;
   bool is_lost_ = false;
   double facing_ = 0.0, agreeing_ = 0.0;
-  std::map<Cell, int> seen_;
+  std::map<Cube, int> seen_;
   int places_ = 0;
   Tracker tracker_;
 };
@@ -124,11 +117,11 @@ using Followers = std::vector<std::unique_ptr<Follower>>;
 /// points, and the map points around them.
 SegmentCloud Telling(SegmentCloud segment, const std::vector<RegistrationPoint>& along,
                      const Eigen::Vector3d& direction) {
-  std::set<Cell> cells;
-  for (const RegistrationPoint& point : along) cells.insert(CellOf(point.p_body_m, kAround_m));
+  std::set<Cube> cubes;
+  for (const RegistrationPoint& point : along) cubes.insert(CubeAt(point.p_body_m, kAround_m));
   std::vector<SegmentPoint> telling, others;
   for (const SegmentPoint& point : segment.map_points) {
-    const bool is_around = cells.count(CellOf(point.p_body_m.cast<double>(), kAround_m)) > 0;
+    const bool is_around = cubes.count(CubeAt(point.p_body_m.cast<double>(), kAround_m)) > 0;
     (is_around ? others : telling).push_back(point);
   }
   segment.map_points = ChooseEvenly(telling, kTellingInMap);

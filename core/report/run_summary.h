@@ -73,11 +73,12 @@ struct RunSummary {
   /// than 5 % have or seem to have the points of others, if the first or the last 5 % have no
   /// points, or if a last scan that was dropped would lengthen the recording by more than 5 %.
   /// Pauses count if they take more than 5 % of the time, flags if they take more than 95 %, poses
-  /// that jump or have been in doubt since if they take more than a quarter, a body at rest whose
-  /// points cannot have been seen from one place (SightLines), and a direction that points leave
-  /// open if they do so for more than five seconds on end, or for two thirds of the time. So do
-  /// a LiDAR that contradicts its extrinsic, or is silent for more than 5 % of the time at either
-  /// end or throughout, clocks that may differ, and a recording that is too short for a window.
+  /// that jump or have been in doubt since, or that a lone object holds, if they take more than a
+  /// quarter, a body at rest whose points cannot have been seen from one place (SightLines), and a
+  /// direction that points leave open if they do so for more than five seconds on end, or for two
+  /// thirds of the time. So do a LiDAR that contradicts its extrinsic, or is silent for more than 5
+  /// % of the time at either end or throughout, clocks that may differ, and a recording that is too
+  /// short for a window.
   std::string Shortcomings() const;
 
   double DataSeconds() const { return begin_ns && end_ns ? Seconds(*end_ns - *begin_ns) : 0.0; }

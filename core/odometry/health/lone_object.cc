@@ -3,14 +3,13 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
 
 #include "core/odometry/health/support.h"
-#include "core/odometry/map/voxel_index.h"
 #include "core/odometry/segments/choose_evenly.h"
+#include "core/odometry/window/cube.h"
 #include "core/odometry/window/facing.h"
 #include "core/scans/nanoseconds.h"
 
@@ -18,7 +17,8 @@ namespace trajlo {
 namespace {
 
 /// No object holds a direction alone that normals face with more than this share of what faces the
-/// one that most of them face: 0.06 behind trucks, and 0.15 or more in streets, halls and offices.
+/// one that most of them face: it is below 0.06 behind trucks, and mostly above 0.15 in streets,
+/// halls and offices.
 constexpr double kWeak = 0.1;
 /// About so many points of a segment are asked which way their planes face.
 constexpr std::size_t kAsked = 128;
@@ -32,8 +32,8 @@ constexpr double kMemory_s = 2.0;
 constexpr double kAlone = 0.8;
 /// Fewer other points contradict nothing.
 constexpr double kFewest = 30.0;
-/// Of the other points, as many on their planes as of the object's, times this, contradict nothing:
-/// behind trucks it was 0.1 to 0.35, with the truth 0.5 to 1.
+/// The share of the other points that lie on their planes, over that of the object's points. Behind
+/// trucks it is 0.1 to 0.35, with the truth 0.5 to 1.
 constexpr double kContradicting = 0.4;
 
 /// The direction that the fewest normals face, if they are few.
@@ -75,15 +75,14 @@ std::vector<FacingPoint> FacingPoints(const Window& window, int k, const Eigen::
 
 /// Where most of the information is: the mean place of the cube that has most.
 Eigen::Vector3d Centre(const std::vector<FacingPoint>& points) {
-  struct Cube {
+  struct Content {
     double information = 0.0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   };
-  std::map<std::array<int, 3>, Cube> cubes;
-  const Cube* most = nullptr;
+  std::map<Cube, Content> cubes;
+  const Content* most = nullptr;
   for (const FacingPoint& point : points) {
-    const VoxelKey key = VoxelAt(point.p_world, 1.0 / kObject_m);
-    Cube& cube = cubes[{key.x(), key.y(), key.z()}];
+    Content& cube = cubes[CubeAt(point.p_world, kObject_m)];
     cube.information += point.information;
     cube.moment += point.information * point.p_world;
     if (most == nullptr || cube.information > most->information) most = &cube;

@@ -16,8 +16,8 @@ namespace trajlo {
 /// The direction u is one that few normals of the window face. Of the planes that face it, a
 /// ball around the place with most information is the object. Over the last seconds,
 ///   - it has nearly all of Σ weight (nᵀu)² of the points that lie on such planes, and
-///   - of the other points with such planes, few lie on them: less than half as many as of the
-///     object's own.
+///   - of the other points with such planes, few lie on them: the share is less than 0.4 times that
+///     of the object's own.
 /// The end of a corridor is a lone object, too; but what else faces the way (doors, lamps) agrees
 /// with it. Where nothing else does, nothing can tell.
 class LoneObjectWatch {

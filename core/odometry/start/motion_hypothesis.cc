@@ -2,12 +2,12 @@
 #include "core/odometry/start/motion_hypothesis.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
 #include "core/odometry/start/coarse_to_fine.h"
 #include "core/odometry/window/association.h"
+#include "core/odometry/window/cube.h"
 #include "core/odometry/window/enter_map.h"
 #include "core/odometry/window/facing.h"
 #include "factors/plane_distances.h"
@@ -94,15 +94,14 @@ int MotionHypothesis::VotesAlong(const Eigen::Vector3d& direction, double place_
   const int moments = std::max(1, static_cast<int>(of_moment.size()));
   // The points of a motion-corrected scan are all of one moment, which has the votes of all then.
   const int most_of_moment = std::max(kMostVotes, kMostVotes * kMoments / 2 / moments);
-  std::map<std::array<int, 3>, int> of_place;
+  std::map<Cube, int> of_place;
   int votes = 0;
   ForEachAgreeing([&](const RegistrationPoint& point) {
     if (!IsFacing(point, direction)) return;
     int& moment = of_moment[MomentOf(point)];
     if (moment == most_of_moment) return;
     ++moment;
-    const VoxelKey at = VoxelAt(point.p_body_m, 1.0 / place_m);
-    int& place = of_place[{at.x(), at.y(), at.z()}];
+    int& place = of_place[CubeAt(point.p_body_m, place_m)];
     if (place == kMostVotes) return;
     ++place;
     ++votes;
